@@ -1,0 +1,29 @@
+# Every command sets up what it needs; `make setup` alone prepares .venv.
+.PHONY: setup run test check lock
+VENV := .venv
+PYTHON := $(VENV)/bin/python
+STAMP := $(VENV)/.complete
+
+setup: $(STAMP)
+
+$(STAMP): requirements.lock pyproject.toml
+	python3 -m venv $(VENV)
+	$(VENV)/bin/pip install --quiet --disable-pip-version-check --requirement requirements.lock
+	$(VENV)/bin/pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
+	touch $@
+
+run: setup
+	$(VENV)/bin/faience serve --samples
+
+test: setup
+	$(PYTHON) -m pytest -n 2
+
+check: setup
+	$(VENV)/bin/ruff check .
+	$(VENV)/bin/ruff format --check .
+	$(VENV)/bin/mypy
+	$(VENV)/bin/lint-imports
+
+# Writes the exact versions now in .venv; run after changing pyproject.toml and installing.
+lock:
+	$(VENV)/bin/pip list --format=freeze --exclude faience --exclude pip > requirements.lock

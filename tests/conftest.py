@@ -1,0 +1,26 @@
+"""Where the shared meshes are, for the tests that use them."""
+
+from pathlib import Path
+
+import pytest
+
+SHARED = Path(__file__).resolve().parents[2] / "shared"
+
+
+def _folder(name: str) -> Path:
+    folder = SHARED / name
+    if not folder.is_dir():
+        pytest.skip(f"shared meshes are not here: {name}")
+    return folder
+
+
+@pytest.fixture(scope="session")
+def data_folder() -> Path:
+    """Real coloured meshes: posed models, clutter, textured objects."""
+    return _folder("data")
+
+
+@pytest.fixture(scope="session")
+def odd_meshes_folder() -> Path:
+    """Odd and broken meshes, with what is expected of each."""
+    return _folder("odd-meshes")

@@ -1,0 +1,1 @@
+"""Bytes in, numbers out: reading meshes and computing their descriptors. Pure."""

@@ -1,0 +1,1 @@
+"""From spectra and colours to the numbers that are compared."""

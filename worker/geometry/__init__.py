@@ -1,0 +1,1 @@
+"""Surfaces: repair, resampling, operators and their spectra."""

@@ -1,0 +1,1 @@
+"""What came in, read: files and archives become one `Mesh`."""
