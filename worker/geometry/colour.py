@@ -1,0 +1,139 @@
+"""The colour of a surface: looked up in its source, averaged over cells, in CIE Lab."""
+
+import colour
+import numpy as np
+from PIL import Image
+from scipy.spatial import cKDTree
+
+from worker.arrays import ByteArray, FloatArray, IntArray
+from worker.reading.mesh import Mesh
+
+D65 = (0.3127, 0.3290)  # chromaticity of the white point of sRGB and of our Lab
+
+
+def srgb_to_lab(srgb: FloatArray) -> FloatArray:
+    """Convert sRGB to CIE Lab.
+
+    Parameters
+    ----------
+    srgb : (n, 3) array
+        Encoded (non-linear) sRGB in 0…1.
+
+    Returns
+    -------
+    (n, 3) array
+        L in 0…100, a, b; white point D65 (IEC 61966-2-1, CIE 15).
+    """
+    xyz = colour.sRGB_to_XYZ(srgb)
+    return np.asarray(colour.XYZ_to_Lab(xyz, np.array(D65)), dtype=np.float64)
+
+
+def look_up_colours(
+    mesh: Mesh, face_indices: IntArray, barycentrics: FloatArray, footprints: FloatArray | None = None
+) -> FloatArray:
+    """Look up the colour at points of a mesh.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh as read.
+    face_indices : (k,) array
+        The face of each point.
+    barycentrics : (k, 3) array
+        Its barycentric coordinates there.
+    footprints : (k,) array, optional
+        The share of its face's area that each point stands for: a texture is averaged over so much
+        (mip-mapping, Williams 1983). Without it the texture is read at full resolution.
+
+    Returns
+    -------
+    (k, 3) array
+        sRGB in 0…1.
+    """
+    colours = np.einsum("kc,kcd->kd", barycentrics, mesh.corner_colours[face_indices])  # (k, 3)
+    uvs = np.einsum("kc,kcd->kd", barycentrics, mesh.corner_uvs[face_indices])  # (k, 2)
+    textures = mesh.face_textures[face_indices]  # (k,)
+    for number, texture in enumerate(mesh.textures):
+        inside = np.flatnonzero(textures == number)
+        if len(inside) == 0:
+            continue
+        levels = np.zeros(len(inside))
+        if footprints is not None:
+            levels = _levels(mesh.corner_uvs[face_indices[inside]], footprints[inside], texture)
+        colours[inside] = _look_up_texture(texture, uvs[inside], levels)
+    return colours
+
+
+def average_over_cells(
+    points: FloatArray,
+    normals: FloatArray,
+    values: FloatArray,
+    centres: FloatArray,
+    centre_normals: FloatArray,
+) -> FloatArray:
+    """Average equal-area samples of a surface over the cells of vertices.
+
+    A sample belongs to the nearest vertex; distance counts the turn of the normal as well, so that the two
+    sides of a thin wall keep their own colours.
+
+    Parameters
+    ----------
+    points, normals : (k, 3) arrays
+        The samples; unit normals.
+    values : (k, d) array
+        What is averaged.
+    centres, centre_normals : (n, 3) arrays
+        The vertices; unit normals.
+
+    Returns
+    -------
+    (n, d) array
+        Means; a cell without samples takes the value of the nearest sample.
+    """
+    spacing = np.sqrt(np.sum(np.ptp(centres, axis=0) ** 2) / len(centres))  # a length of a few edges
+    samples = np.hstack([points, spacing * normals])  # (k, 6)
+    cells = np.hstack([centres, spacing * centre_normals])  # (n, 6)
+    nearest = cKDTree(cells).query(samples)[1]  # (k,)
+    counts = np.bincount(nearest, minlength=len(centres))  # (n,)
+    sums = np.stack([np.bincount(nearest, column, len(centres)) for column in values.T], axis=1)  # (n, d)
+    means = sums / np.maximum(counts, 1)[:, None]
+    empty = np.flatnonzero(counts == 0)
+    if len(empty):
+        means[empty] = values[cKDTree(samples).query(cells[empty])[1]]
+    return means
+
+
+def _levels(corner_uvs: FloatArray, footprints: FloatArray, texture: ByteArray) -> FloatArray:
+    """Return the level of the image pyramid whose texels are about as large as each point's footprint."""
+    height, width = texture.shape[:2]
+    first = corner_uvs[:, 1] - corner_uvs[:, 0]
+    second = corner_uvs[:, 2] - corner_uvs[:, 0]
+    texels = np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) / 2 * width * height * footprints
+    return np.floor(np.log2(np.maximum(texels, 1.0)) / 2)
+
+
+def _look_up_texture(texture: ByteArray, uvs: FloatArray, levels: FloatArray) -> FloatArray:
+    """Read a texture bilinearly at each point's level; coordinates repeat."""
+    colours = np.empty((len(uvs), 3))
+    image = Image.fromarray(texture)
+    last = int(np.log2(max(min(texture.shape[:2]), 1)))
+    levels = np.minimum(levels, last)
+    for level in np.unique(levels):
+        inside = np.flatnonzero(levels == level)
+        reduced = np.asarray(image.reduce(2 ** int(level)) if level else image)
+        colours[inside] = _bilinear(reduced, uvs[inside])
+    return colours / 255.0
+
+
+def _bilinear(image: ByteArray, uvs: FloatArray) -> FloatArray:
+    """Interpolate an image at texture coordinates, v upwards, repeating."""
+    height, width = image.shape[:2]
+    x = (uvs[:, 0] % 1.0) * width - 0.5
+    y = ((1.0 - uvs[:, 1]) % 1.0) * height - 0.5
+    left, top = np.floor(x).astype(np.int64), np.floor(y).astype(np.int64)
+    right_share, bottom_share = (x - left)[:, None], (y - top)[:, None]
+    upper = image[top % height, left % width] * (1 - right_share)
+    upper += image[top % height, (left + 1) % width] * right_share
+    lower = image[(top + 1) % height, left % width] * (1 - right_share)
+    lower += image[(top + 1) % height, (left + 1) % width] * right_share
+    return np.asarray(upper * (1 - bottom_share) + lower * bottom_share)
