@@ -1,12 +1,17 @@
 """The colour of a surface: looked up in its source, averaged over cells, in CIE Lab."""
 
-import colour
+import warnings
+
 import numpy as np
 from PIL import Image
 from scipy.spatial import cKDTree
 
 from worker.arrays import ByteArray, FloatArray, IntArray
 from worker.reading.mesh import Mesh
+
+with warnings.catch_warnings():  # colour warns that its plots need matplotlib; nothing is plotted here
+    warnings.simplefilter("ignore")
+    import colour
 
 D65 = (0.3127, 0.3290)  # chromaticity of the white point of sRGB and of our Lab
 
@@ -70,6 +75,7 @@ def average_over_cells(
     values: FloatArray,
     centres: FloatArray,
     centre_normals: FloatArray,
+    turn: float,
 ) -> FloatArray:
     """Average equal-area samples of a surface over the cells of vertices.
 
@@ -84,15 +90,17 @@ def average_over_cells(
         What is averaged.
     centres, centre_normals : (n, 3) arrays
         The vertices; unit normals.
+    turn : float
+        The distance that a quarter turn of the normal counts for, about an edge.
 
     Returns
     -------
     (n, d) array
         Means; a cell without samples takes the value of the nearest sample.
     """
-    spacing = np.sqrt(np.sum(np.ptp(centres, axis=0) ** 2) / len(centres))  # a length of a few edges
-    samples = np.hstack([points, spacing * normals])  # (k, 6)
-    cells = np.hstack([centres, spacing * centre_normals])  # (n, 6)
+    weight = turn / np.sqrt(2.0)  # unit normals a quarter turn apart are √2 apart
+    samples = np.hstack([points, weight * normals])  # (k, 6)
+    cells = np.hstack([centres, weight * centre_normals])  # (n, 6)
     nearest = cKDTree(cells).query(samples)[1]  # (k,)
     counts = np.bincount(nearest, minlength=len(centres))  # (n,)
     sums = np.stack([np.bincount(nearest, column, len(centres)) for column in values.T], axis=1)  # (n, d)

@@ -1,0 +1,111 @@
+"""What can go wrong with what is kept: one root, one class and one stable code for each reason."""
+
+from typing import ClassVar
+
+
+class CatalogueError(Exception):
+    """The root of every error of this package; the message is in plain words."""
+
+    code: ClassVar[str] = "catalogue_error"  # stable; clients may rely on it
+
+
+class ShapeNotFound(CatalogueError):
+    """No shape has this id, or it was removed."""
+
+    code = "not_found"
+
+
+class FileMissing(CatalogueError):
+    """The file store holds nothing under this key."""
+
+    code = "file_missing"
+
+
+class NotReady(CatalogueError):
+    """The shape has no descriptors yet, or never got any."""
+
+    code = "not_ready"
+
+
+class NotFailed(CatalogueError):
+    """Only a shape that failed can be tried again."""
+
+    code = "not_failed"
+
+
+class BadCursor(CatalogueError):
+    """The cursor was not made by this catalogue."""
+
+    code = "bad_cursor"
+
+
+class UnknownMethod(CatalogueError):
+    """No method has this name."""
+
+    code = "unknown_method"
+
+
+class MethodUnavailable(CatalogueError):
+    """The method is planned, but nothing computes its blocks yet."""
+
+    code = "method_unavailable"
+
+
+class BadWeights(CatalogueError):
+    """Weights that name a block the method lacks, are negative or not finite, or are all zero."""
+
+    code = "bad_weights"
+
+
+class BadBlock(CatalogueError):
+    """A descriptor block is missing, or is not a finite vector of the expected length."""
+
+    code = "bad_block"
+
+
+class FingerprintMismatch(CatalogueError):
+    """Descriptors or vocabularies of different parameters would be mixed."""
+
+    code = "fingerprint_mismatch"
+
+
+class UnknownVocabulary(CatalogueError):
+    """No vocabulary has this id."""
+
+    code = "unknown_vocabulary"
+
+
+class VocabularyChanged(CatalogueError):
+    """Another vocabulary became the active one meanwhile: quantise again, then repeat."""
+
+    code = "vocabulary_changed"
+
+
+class LeaseLost(CatalogueError):
+    """The job is no longer this worker's: its lease ran out and another took it, or its shape is gone."""
+
+    code = "lease_lost"
+
+
+class StorageFull(CatalogueError):
+    """The disk is full; nothing of this write was kept."""
+
+    code = "storage_full"
+
+
+class CatalogueBusy(CatalogueError):
+    """Another process held the database for too long."""
+
+    code = "busy"
+
+
+class DamagedIndex(CatalogueError):
+    """A saved search index is truncated, altered or of another format."""
+
+    code = "damaged_index"
+
+
+class BadVocabulary(CatalogueError):
+    """Bytes that are no vocabulary, or shapes too few or too alike to learn one from."""
+
+    code = "bad_vocabulary"

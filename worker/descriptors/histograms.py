@@ -1,0 +1,62 @@
+"""Histograms of a surface's colours in CIE Lab."""
+
+from functools import cache
+
+import numpy as np
+from scipy.ndimage import binary_dilation, gaussian_filter
+
+from worker.arrays import BoolArray, FloatArray
+from worker.geometry.colour import srgb_to_lab
+
+LOWER = np.array([0.0, -80.0, -80.0])  # of L, a, b; colours outside count in the outermost bins
+UPPER = np.array([100.0, 80.0, 80.0])
+REACH = 2  # bins to which smoothing spreads a colour
+CUBE = 33  # sRGB values along each side by which the gamut is found
+
+
+def lab_histogram(lab: FloatArray, n_bins: int, smoothing: float) -> FloatArray:
+    """Return the smoothed histogram of equal-area colour samples.
+
+    A sample is shared linearly among the eight bins around it, so that no colour sits on an edge (greys have
+    a = b = 0); then the counts are smoothed. Only bins that sRGB can reach are kept.
+
+    Parameters
+    ----------
+    lab : (k, 3) array
+        CIE Lab of the samples.
+    n_bins : int
+        Along each axis.
+    smoothing : float
+        σ of the Gaussian, in bins.
+
+    Returns
+    -------
+    (b,) array
+        Sums to 1; the bins inside the gamut, L slowest and b fastest.
+    """
+    smooth = gaussian_filter(_counts(lab, n_bins), smoothing, mode="reflect", radius=REACH)
+    inside = smooth[_gamut(n_bins)]
+    return np.asarray(inside / inside.sum())
+
+
+def _counts(lab: FloatArray, n_bins: int) -> FloatArray:
+    """Share samples linearly among bins; (n_bins, n_bins, n_bins)."""
+    places = (lab - LOWER) / (UPPER - LOWER) * n_bins - 0.5  # (k, 3), whole at the middle of a bin
+    places = np.clip(places, 0.0, n_bins - 1.0)
+    lowest = np.minimum(places.astype(np.int64), n_bins - 2)
+    upper_shares = places - lowest
+    counts = np.zeros(n_bins**3)
+    for corner in np.ndindex(2, 2, 2):
+        shares = np.where(np.array(corner) == 1, upper_shares, 1.0 - upper_shares).prod(axis=1)
+        bins = np.ravel_multi_index(tuple((lowest + corner).T), (n_bins,) * 3)
+        counts += np.bincount(bins, shares, n_bins**3)
+    return counts.reshape((n_bins,) * 3)
+
+
+@cache
+def _gamut(n_bins: int) -> BoolArray:
+    """Tell which bins hold a colour of sRGB or lie where smoothing brings one."""
+    steps = np.linspace(0.0, 1.0, CUBE)
+    cube = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), axis=-1).reshape(-1, 3)
+    filled = _counts(srgb_to_lab(cube), n_bins) > 0
+    return np.asarray(binary_dilation(filled, iterations=1))

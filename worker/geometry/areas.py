@@ -1,0 +1,80 @@
+"""Lengths, areas and normals of a triangulated surface."""
+
+import numpy as np
+
+from worker.arrays import FloatArray, IntArray
+
+
+def edge_lengths(points: FloatArray, faces: IntArray) -> FloatArray:
+    """Measure the edges of each face.
+
+    Parameters
+    ----------
+    points : (n, d) array
+        Vertices in any dimension: 3 for geometry, 6 for the joint embedding.
+    faces : (m, 3) array
+        Indices of vertices.
+
+    Returns
+    -------
+    (m, 3) array
+        Column i is the length from corner i to corner i + 1.
+    """
+    corners = points[faces]  # (m, 3, d)
+    return np.asarray(np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2))
+
+
+def triangle_areas(lengths: FloatArray) -> FloatArray:
+    """Return areas of triangles from their edge lengths.
+
+    Heron's formula in the stable ordering of Kahan (2014), "Miscalculating Area and Angles of a Needle-like
+    Triangle"; a triple that rounding has pushed past the triangle inequality has area 0.
+
+    Parameters
+    ----------
+    lengths : (m, 3) array
+
+    Returns
+    -------
+    (m,) array
+    """
+    c, b, a = np.sort(lengths, axis=1).T  # a ≥ b ≥ c
+    product = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c))
+    return np.asarray(np.sqrt(np.maximum(product, 0.0)) / 4.0)
+
+
+def vertex_areas(faces: IntArray, areas: FloatArray, n_vertices: int) -> FloatArray:
+    """Give each vertex a third of the area of every face around it.
+
+    Parameters
+    ----------
+    faces : (m, 3) array
+    areas : (m,) array
+        Areas of the faces.
+    n_vertices : int
+
+    Returns
+    -------
+    (n_vertices,) array
+        Sums to the area of the surface.
+    """
+    return np.bincount(faces.ravel(), np.repeat(areas / 3.0, 3), n_vertices)
+
+
+def face_vectors(vertices: FloatArray, faces: IntArray) -> FloatArray:
+    """Return for each face its normal, as long as its area; (m, 3)."""
+    first, second, third = (vertices[faces[:, corner]] for corner in range(3))
+    return np.asarray(np.cross(second - first, third - first) / 2.0)
+
+
+def vertex_normals(vertices: FloatArray, faces: IntArray) -> FloatArray:
+    """Return unit normals at the vertices, weighted by area; 0 where the faces cancel; (n, 3)."""
+    vectors = np.repeat(face_vectors(vertices, faces), 3, axis=0)  # (3 m, 3)
+    sums = np.stack([np.bincount(faces.ravel(), axis, len(vertices)) for axis in vectors.T], axis=1)
+    return unit(sums)
+
+
+def unit(vectors: FloatArray) -> FloatArray:
+    """Scale vectors to length 1; those of length 0 stay; (n, d)."""
+    norms = np.linalg.norm(vectors, axis=1, keepdims=True)
+    return np.asarray(vectors / np.where(norms > 0, norms, 1.0))
