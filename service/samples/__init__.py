@@ -1,0 +1,6 @@
+"""The project's own library: posable coloured creatures and plain things, made wholly by code."""
+
+from service.samples.sample import Sample
+from service.samples.variety import random_creatures
+
+__all__ = ["Sample", "random_creatures"]
