@@ -1,0 +1,97 @@
+"""The database: engine, transactions, migrations. SQLite by default."""
+
+import sqlite3
+from collections.abc import Iterator
+from contextlib import contextmanager
+from importlib.resources import as_file, files
+from typing import Any
+
+from alembic import command
+from alembic.config import Config
+from sqlalchemy import Connection, Engine, create_engine, event
+from sqlalchemy.exc import OperationalError
+from sqlalchemy.orm import Session
+
+from index.errors import CatalogueBusy, StorageFull
+
+_BUSY_SECONDS = 30  # how long a writer waits for another
+_WRITES = "faience_writes"  # execution option of connections that are going to write
+
+
+def make_engine(url: str) -> Engine:
+    """Return an engine for a SQLAlchemy URL, such as ``sqlite:////data/catalogue.db``.
+
+    On SQLite every committed transaction is flushed to the disk before it returns, readers never
+    wait for the writer, and writers wait for each other instead of failing half-way.
+    """
+    engine = create_engine(url, pool_size=10, max_overflow=30)
+    if engine.dialect.name == "sqlite":
+        event.listen(engine, "connect", _prepare_sqlite)
+        event.listen(engine, "begin", _begin_sqlite)
+    return engine
+
+
+def migrate(engine: Engine) -> None:
+    """Bring the schema to this version's; several processes may do so at once."""
+    with as_file(files("index") / "migrations") as scripts:
+        config = Config()
+        config.set_main_option("script_location", str(scripts).replace("%", "%%"))
+        config.set_main_option("path_separator", "os")
+        with _named(), engine.execution_options(**{_WRITES: True}).begin() as connection:
+            config.attributes["connection"] = connection
+            command.upgrade(config, "head")
+
+
+@contextmanager
+def reading(engine: Engine) -> Iterator[Session]:
+    """One transaction that sees one moment of the catalogue and changes nothing."""
+    with _named(), Session(engine) as session, session.begin():
+        yield session
+
+
+@contextmanager
+def writing(engine: Engine) -> Iterator[Session]:
+    """One transaction that writes; committed and durable when the block ends.
+
+    Raises
+    ------
+    StorageFull
+        The disk is full; nothing was changed.
+    CatalogueBusy
+        Another process kept the database locked; nothing was changed.
+    """
+    writer = engine.execution_options(**{_WRITES: True})
+    with _named(), Session(writer, expire_on_commit=False) as session, session.begin():
+        yield session
+
+
+def _prepare_sqlite(connection: sqlite3.Connection, _record: Any) -> None:
+    connection.isolation_level = None  # _begin_sqlite says BEGIN; the driver would say it too late
+    for pragma in (
+        f"busy_timeout = {_BUSY_SECONDS * 1000}",
+        "journal_mode = WAL",
+        "synchronous = FULL",  # NORMAL may lose acknowledged commits when the power fails
+        "foreign_keys = ON",
+    ):
+        connection.execute(f"PRAGMA {pragma}")
+
+
+def _begin_sqlite(connection: Connection) -> None:
+    # A transaction that reads first and then wants to write can meet another one doing the same;
+    # SQLite would refuse one of them at once, whatever the timeout. So writers say so at the start.
+    writes = connection.get_execution_options().get(_WRITES, False)
+    connection.exec_driver_sql("BEGIN IMMEDIATE" if writes else "BEGIN")
+
+
+@contextmanager
+def _named() -> Iterator[None]:
+    """Give the two failures that users can do something about their own names."""
+    try:
+        yield
+    except OperationalError as error:
+        code = getattr(error.orig, "sqlite_errorcode", 0) & 0xFF  # the low byte is the primary code
+        if code == sqlite3.SQLITE_FULL:
+            raise StorageFull("the disk is full; nothing was changed") from error
+        if code == sqlite3.SQLITE_BUSY:
+            raise CatalogueBusy("the catalogue is locked by another process") from error
+        raise

@@ -1,0 +1,166 @@
+"""FileStore: files that survive a crash once `put` has returned."""
+
+import contextlib
+import hashlib
+import os
+import re
+import shutil
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import IO, BinaryIO
+from uuid import uuid4
+
+from index.errors import FileMissing
+from index.storage import full_disk_named
+
+_KEY = re.compile(r"[A-Za-z0-9_-][A-Za-z0-9._-]*(/[A-Za-z0-9_-][A-Za-z0-9._-]*)*")
+_INCOMING = ".incoming"  # half-written files; no key can start with a dot
+_CHUNK = 1 << 20  # bytes read at once
+
+
+class FileStore:
+    """A local folder of files under keys of our own making.
+
+    A file is written aside, flushed to the disk, then renamed: readers see all of it or nothing.
+
+    Parameters
+    ----------
+    root : Path
+        The folder; made on first use.
+    """
+
+    def __init__(self, root: Path) -> None:
+        self._root = root
+
+    def put(self, key: str, data: bytes) -> None:
+        """Keep `data` under `key`, durably, replacing what was there.
+
+        Raises
+        ------
+        StorageFull
+            The disk is full; nothing is left behind.
+        """
+        self._write(key, lambda file: file.write(data))
+
+    def put_stream(self, key: str, stream: BinaryIO) -> tuple[int, str]:
+        """Keep what `stream` holds, piece by piece; return its size and SHA-256.
+
+        Raises
+        ------
+        StorageFull
+            The disk is full; nothing is left behind.
+        """
+        digest = hashlib.sha256()
+
+        def copy(file: IO[bytes]) -> int:
+            while piece := stream.read(_CHUNK):
+                digest.update(piece)
+                file.write(piece)
+            return file.tell()
+
+        return self._write(key, copy), digest.hexdigest()
+
+    def get(self, key: str) -> bytes:
+        """Return the whole content; FileMissing where there is none."""
+        try:
+            return self.path(key).read_bytes()
+        except FileNotFoundError:
+            raise FileMissing(f"no file is kept under {key!r}") from None
+
+    def path(self, key: str) -> Path:
+        """Return where the file is, or would be; ValueError for a key that we cannot have made."""
+        if not _KEY.fullmatch(key):
+            raise ValueError(f"not a file key: {key!r}")
+        return self._root / key
+
+    def delete(self, key: str) -> None:
+        """Remove one file and the folders that this empties; absent is fine."""
+        path = self.path(key)
+        path.unlink(missing_ok=True)
+        self._prune(path.parent)
+
+    def delete_all(self, prefix: str) -> None:
+        """Remove every file under the folder `prefix`; absent is fine."""
+        path = self.path(prefix)
+        shutil.rmtree(path, ignore_errors=True)
+        self._prune(path.parent)
+
+    def keys(self, prefix: str = "") -> Iterator[str]:
+        """Yield the keys under the folder `prefix` (all without one), in order."""
+        start = self.path(prefix) if prefix else self._root
+        for path in sorted(start.rglob("*")):
+            relative = path.relative_to(self._root)
+            if relative.parts[0] != _INCOMING and path.is_file():
+                yield relative.as_posix()
+
+    def sweep(self, older_than_seconds: float) -> int:
+        """Remove half-written files that a killed process left; return how many."""
+        limit = time.time() - older_than_seconds
+        swept = 0
+        for path in (self._root / _INCOMING).glob("*"):
+            with contextlib.suppress(FileNotFoundError):  # its writer may finish right now
+                if path.stat().st_mtime <= limit:
+                    path.unlink()
+                    swept += 1
+        return swept
+
+    def _write(self, key: str, fill: Callable[[IO[bytes]], int]) -> int:
+        final = self.path(key)
+        aside = self._root / _INCOMING / uuid4().hex
+        with full_disk_named():
+            try:
+                _make_folder(aside.parent)
+                size = _write_through(aside, fill)
+                self._rename(aside, final)
+            except BaseException:
+                aside.unlink(missing_ok=True)
+                self._prune(final.parent)
+                raise
+        return size
+
+    def _rename(self, aside: Path, final: Path) -> None:
+        for last in (False, False, True):
+            try:
+                _make_folder(final.parent)
+                aside.replace(final)
+                break
+            except FileNotFoundError:  # a delete beside us pruned the folder just now
+                if last:
+                    raise
+        _flush_folder(final.parent)
+
+    def _prune(self, folder: Path) -> None:
+        while folder != self._root:
+            try:
+                folder.rmdir()
+            except FileNotFoundError:
+                pass
+            except OSError:  # not empty
+                return
+            folder = folder.parent
+
+
+def _write_through(path: Path, fill: Callable[[IO[bytes]], int]) -> int:
+    with path.open("xb") as file:
+        size = fill(file)
+        file.flush()
+        os.fsync(file.fileno())
+    return size
+
+
+def _make_folder(folder: Path) -> None:
+    """Make a folder whose own entry is durable too, and that of each parent it needed."""
+    if folder.is_dir():
+        return
+    _make_folder(folder.parent)
+    folder.mkdir(exist_ok=True)
+    _flush_folder(folder.parent)
+
+
+def _flush_folder(folder: Path) -> None:
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)

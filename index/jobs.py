@@ -1,0 +1,42 @@
+"""Jobs: work on a shape, enqueued with it and gone with its result."""
+
+from dataclasses import dataclass
+from datetime import datetime
+
+from sqlalchemy import select
+from sqlalchemy.orm import Session
+
+from index.errors import LeaseLost
+from index.tables import JobRow
+
+MAX_ATTEMPTS = 3  # claims of one job before it is given up
+
+
+@dataclass(frozen=True, kw_only=True)
+class Job:
+    """A job as its worker holds it."""
+
+    id: int  # never given twice
+    shape_id: str  # what to work on
+    attempts: int  # claims so far, this one too
+    lease_until: datetime  # UTC; another worker may take the job after this
+    worker: str  # who holds it
+    token: str  # proves that this claim is the latest one
+
+
+def enqueue(session: Session, shape_id: str) -> None:
+    """Add a job, in the transaction that makes it necessary."""
+    session.add(JobRow(shape_id=shape_id, attempts=0))
+
+
+def held_row(session: Session, job: Job) -> JobRow:
+    """Return the row of a job that is still its worker's; LeaseLost otherwise.
+
+    A lease that ran out counts as long as nobody else took the job.
+    """
+    row = session.execute(
+        select(JobRow).where(JobRow.id == job.id, JobRow.token == job.token)
+    ).scalar_one_or_none()
+    if row is None:
+        raise LeaseLost(f"job {job.id} is no longer held by {job.worker}")
+    return row

@@ -1,0 +1,105 @@
+"""Listing: shapes one by one, many at once, page by page."""
+
+import builtins
+from base64 import urlsafe_b64decode, urlsafe_b64encode
+from collections.abc import Iterable, Mapping
+
+from sqlalchemy import Engine, Select, func, select
+
+from index.database import reading
+from index.errors import BadCursor
+from index.rows import folded, shape_of, shape_row
+from index.shapes import Page, Shape, Status
+from index.tables import FileRow, ShapeRow
+
+_AT_ONCE = 500  # ids in one statement; SQLite allows 32 766 values
+
+
+class Listing:
+    """How shapes are looked up."""
+
+    _engine: Engine
+
+    def get(self, shape_id: str) -> Shape:
+        """Return one shape; ShapeNotFound where there is none."""
+        with reading(self._engine) as session:
+            return shape_of(shape_row(session, shape_id))
+
+    def get_many(self, shape_ids: Iterable[str]) -> dict[str, Shape]:
+        """Return the shapes that exist among `shape_ids`, by id."""
+        wanted = builtins.list(dict.fromkeys(shape_ids))
+        found: dict[str, Shape] = {}
+        with reading(self._engine) as session:
+            for start in range(0, len(wanted), _AT_ONCE):
+                some = select(ShapeRow).where(ShapeRow.id.in_(wanted[start : start + _AT_ONCE]))
+                found.update((row.id, shape_of(row)) for row in session.scalars(some))
+        return found
+
+    def list(
+        self,
+        limit: int = 50,
+        cursor: str | None = None,
+        status: Status | None = None,
+        q: str | None = None,
+    ) -> Page:
+        """Return one page, newest first.
+
+        Parameters
+        ----------
+        limit : int
+            Shapes on a page, at least 1.
+        cursor : str, optional
+            What the page before gave; pages stay in step while shapes are added or removed.
+        status : Status, optional
+            Only shapes in this state.
+        q : str, optional
+            Only shapes whose name or metadata values contain this text; capitals do not matter.
+
+        Raises
+        ------
+        BadCursor
+            The cursor is not one of ours.
+        """
+        query = select(ShapeRow).order_by(ShapeRow.sequence.desc()).limit(limit + 1)
+        if cursor is not None:
+            query = query.where(ShapeRow.sequence < _sequence_of(cursor))
+        with reading(self._engine) as session:
+            rows = session.scalars(_filtered(query, status, q)).all()
+            items = tuple(shape_of(row) for row in rows[:limit])
+            more = len(rows) > limit
+            return Page(items=items, next_cursor=_cursor_of(rows[limit - 1].sequence) if more else None)
+
+    def counts(self) -> Mapping[Status, int]:
+        """Return how many shapes are in each state."""
+        with reading(self._engine) as session:
+            rows = session.execute(select(ShapeRow.status, func.count()).group_by(ShapeRow.status))
+            found = {Status(status): count for status, count in rows}
+        return {status: found.get(status, 0) for status in Status}
+
+    def file_keys(self) -> set[str]:
+        """Return every key of the file store that a shape's files need."""
+        with reading(self._engine) as session:
+            return set(session.scalars(select(FileRow.key)))
+
+
+def _filtered(query: Select[ShapeRow], status: Status | None, q: str | None) -> Select[ShapeRow]:
+    if status is not None:
+        query = query.where(ShapeRow.status == status)
+    if q:
+        query = query.where(ShapeRow.searchable.contains(folded(q), autoescape=True))
+    return query
+
+
+def _cursor_of(sequence: int) -> str:
+    return urlsafe_b64encode(f"before:{sequence}".encode()).decode()
+
+
+def _sequence_of(cursor: str) -> int:
+    try:
+        word, _, digits = urlsafe_b64decode(cursor.encode("ascii")).decode("ascii").partition(":")
+        sequence = int(digits)
+    except ValueError:  # not ASCII, not base 64, not a number
+        raise BadCursor("this cursor does not come from the list of shapes") from None
+    if word != "before" or not 0 <= sequence < 1 << 63:
+        raise BadCursor("this cursor does not come from the list of shapes")
+    return sequence

@@ -1,0 +1,99 @@
+"""Stored blocks: the descriptors of one shape, or of all that are new to an index."""
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+
+from sqlalchemy import Engine, Select, delete, insert, select
+from sqlalchemy.orm import Session
+
+from index.arrays import SingleArray
+from index.blocks import block_length, decode_block, encode_block
+from index.database import reading
+from index.errors import FingerprintMismatch, NotReady
+from index.rows import shape_row
+from index.shapes import Status
+from index.tables import PlainBlockRow, QuantisedBlockRow, ShapeRow
+
+_AT_ONCE = 500  # shapes in one statement
+
+Blocks = dict[str, SingleArray]
+
+
+class StoredBlocks:
+    """How descriptors are read."""
+
+    _engine: Engine
+
+    def blocks(self, shape_id: str, vocabulary_id: str | None) -> Blocks:
+        """Return a ready shape's blocks, those of the vocabulary included; NotReady for another shape."""
+        with reading(self._engine) as session:
+            if shape_row(session, shape_id).status != Status.READY:
+                raise NotReady("this shape has no descriptors")
+            return _read(session, [shape_id], vocabulary_id, None)[shape_id]
+
+    def block_rows(
+        self, vocabulary_id: str | None, after_revision: int = 0, names: Collection[str] | None = None
+    ) -> Iterator[tuple[str, Blocks]]:
+        """Yield (id, blocks) of every ready shape that changed after a revision, ordered by id.
+
+        One transaction, held until the last row is taken: all rows show the same moment.
+
+        Parameters
+        ----------
+        vocabulary_id : str or None
+            Whose words are joined to the blocks that need none; None for only the latter.
+        after_revision : int
+            0 for all shapes.
+        names : collection of str, optional
+            Only these blocks.
+        """
+        query = select(ShapeRow.id).where(ShapeRow.status == Status.READY, ShapeRow.revision > after_revision)
+        with reading(self._engine) as session:
+            shape_ids = session.scalars(query.order_by(ShapeRow.id)).all()
+            for start in range(0, len(shape_ids), _AT_ONCE):
+                yield from _read(session, shape_ids[start : start + _AT_ONCE], vocabulary_id, names).items()
+
+
+def write_plain(session: Session, shape_id: str, blocks: Mapping[str, SingleArray]) -> None:
+    """Replace a shape's blocks that need no vocabulary."""
+    table = PlainBlockRow
+    session.execute(delete(table).where(table.shape_id == shape_id))
+    for name, block in blocks.items():
+        _refuse_other_length(session, select(table.data).where(table.name == name), name, block)
+        session.execute(insert(table), {"shape_id": shape_id, "name": name, "data": encode_block(block)})
+
+
+def write_quantised(
+    session: Session, shape_id: str, vocabulary_id: str, blocks: Mapping[str, SingleArray]
+) -> None:
+    """Replace a shape's blocks in the words of one vocabulary."""
+    table, key = QuantisedBlockRow, {"shape_id": shape_id, "vocabulary_id": vocabulary_id}
+    ours = table.vocabulary_id == vocabulary_id
+    session.execute(delete(table).where(ours, table.shape_id == shape_id))
+    for name, block in blocks.items():
+        _refuse_other_length(session, select(table.data).where(ours, table.name == name), name, block)
+        session.execute(insert(table), {**key, "name": name, "data": encode_block(block)})
+
+
+def _refuse_other_length(session: Session, query: Select[bytes], name: str, block: SingleArray) -> None:
+    # One vector of another length would stop the search for every shape.
+    known = session.scalars(query.limit(1)).first()
+    if known is not None and block_length(known) != block.size:
+        raise FingerprintMismatch(
+            f"block {name!r} has {block.size} numbers, that of the other shapes {block_length(known)}"
+        )
+
+
+def _read(
+    session: Session, shape_ids: Sequence[str], vocabulary_id: str | None, names: Collection[str] | None
+) -> dict[str, Blocks]:
+    found: dict[str, Blocks] = {shape_id: {} for shape_id in shape_ids}
+    plain, words = PlainBlockRow, QuantisedBlockRow
+    queries = [select(plain.shape_id, plain.name, plain.data).where(plain.shape_id.in_(shape_ids))]
+    if vocabulary_id is not None:
+        ours = (words.vocabulary_id == vocabulary_id, words.shape_id.in_(shape_ids))
+        queries.append(select(words.shape_id, words.name, words.data).where(*ours))
+    for query in queries:
+        for shape_id, name, data in session.execute(query):
+            if names is None or name in names:
+                found[shape_id][name] = decode_block(data)
+    return found
