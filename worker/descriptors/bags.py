@@ -10,8 +10,8 @@ def bag_of_features(
 ) -> FloatArray:
     """Share out the area of a surface among words.
 
-    Bronstein, Bronstein, Guibas and Ovsjanikov (2011), "Shape Google", section 3: each point
-    gives itself to word l in proportion to exp(−‖p − w_l‖² / 2σ²); the shares are integrated over the surface.
+    Bronstein, Bronstein, Guibas and Ovsjanikov (2011), "Shape Google", section 3: each point gives itself to
+    word l in proportion to exp(−‖p − w_l‖² / 2σ²); the shares are integrated over the surface.
 
     Parameters
     ----------
@@ -40,6 +40,6 @@ def soft_assignment(signatures: FloatArray, words: FloatArray, softness: float) 
     squares = np.sum(points**2, axis=1)[:, None] + np.sum(words**2, axis=1) - 2.0 * points @ words.T
     squares -= squares.min(axis=1, keepdims=True)
     if softness == 0:
-        return np.eye(len(words))[np.argmin(squares, axis=1)]
+        return np.asarray(np.eye(len(words))[np.argmin(squares, axis=1)])
     shares = np.exp(-squares / (2.0 * softness**2))
     return np.asarray(shares / shares.sum(axis=1, keepdims=True))

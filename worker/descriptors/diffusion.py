@@ -28,7 +28,7 @@ def diffusion_distances(eigenvalues: FloatArray, eigenfunctions: FloatArray, tim
     decay = np.exp(-eigenvalues * time)
     coordinates = eigenfunctions * decay  # (s, k); constant functions cancel in the differences
     coordinates = (coordinates - coordinates.mean(axis=0)).astype(np.float32)
-    norms = np.sum(coordinates**2, axis=1, dtype=np.float32)
+    norms = np.square(coordinates).sum(axis=1)
     squares = coordinates @ (np.float32(-2.0) * coordinates.T)  # (s, s)
     squares += norms[:, None]
     squares += norms

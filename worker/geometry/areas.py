@@ -58,7 +58,7 @@ def vertex_areas(faces: IntArray, areas: FloatArray, n_vertices: int) -> FloatAr
     (n_vertices,) array
         Sums to the area of the surface.
     """
-    return np.bincount(faces.ravel(), np.repeat(areas / 3.0, 3), n_vertices)
+    return np.bincount(faces.ravel(), np.repeat(areas / 3.0, 3), n_vertices).astype(np.float64)
 
 
 def face_vectors(vertices: FloatArray, faces: IntArray) -> FloatArray:
@@ -70,8 +70,8 @@ def face_vectors(vertices: FloatArray, faces: IntArray) -> FloatArray:
 def vertex_normals(vertices: FloatArray, faces: IntArray) -> FloatArray:
     """Return unit normals at the vertices, weighted by area; 0 where the faces cancel; (n, 3)."""
     vectors = np.repeat(face_vectors(vertices, faces), 3, axis=0)  # (3 m, 3)
-    sums = np.stack([np.bincount(faces.ravel(), axis, len(vertices)) for axis in vectors.T], axis=1)
-    return unit(sums)
+    sums = [np.bincount(faces.ravel(), axis, len(vertices)) for axis in vectors.T]
+    return unit(np.stack(sums, axis=1).astype(np.float64))
 
 
 def unit(vectors: FloatArray) -> FloatArray:

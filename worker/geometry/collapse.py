@@ -99,7 +99,7 @@ def _choose(surface: _Surface, edges: Edges, most: int) -> IntArray:
     keeps = _keeps_topology(surface, edges, chosen)
     surface.penalties[edges.ends[chosen[~keeps]]] *= PENALTY
     if keeps.any() or len(chosen) == 0:
-        return chosen[keeps][:most]
+        return np.asarray(chosen[keeps][:most])
     return _choose(surface, edges, most)
 
 
@@ -115,18 +115,25 @@ def _alone(ends: IntArray, candidates: IntArray, n_vertices: int) -> BoolArray:
 
 
 def _keeps_topology(surface: _Surface, edges: Edges, chosen: IntArray) -> BoolArray:
-    """Check the link condition: the ends share as many neighbours as the edge has faces."""
+    """Check the link condition: the ends share as many neighbours as the edge has faces.
+
+    Tetrahedra and lone triangles meet it as well, and would vanish.
+    """
     n = len(surface.vertices)
     ends = edges.ends
     ones = np.ones(2 * len(ends), dtype=np.int32)
     rows, columns = np.concatenate([ends, ends[:, ::-1]]).T
     adjacent = sparse.csr_array((ones, (rows, columns)), shape=(n, n))
     start, end = ends[chosen].T
-    shared = np.asarray(adjacent[start].multiply(adjacent[end]).sum(axis=1)).ravel()
+    common = adjacent[start].multiply(adjacent[end]).astype(bool).astype(np.int32)
+    shared = np.asarray(common.sum(axis=1)).ravel()
+    tetrahedron = common @ (np.bincount(ends.ravel(), minlength=n) == 3) > 1
+    alone = np.zeros(len(ends), dtype=bool)
+    alone[edges.of_faces[(edges.n_faces[edges.of_faces] == 1).all(axis=1)]] = True
     boundary = np.zeros(n, dtype=bool)
     boundary[ends[edges.n_faces == 1]] = True
     pinches = boundary[start] & boundary[end] & (edges.n_faces[chosen] > 1)
-    return np.asarray((shared == edges.n_faces[chosen]) & ~pinches)
+    return np.asarray((shared == edges.n_faces[chosen]) & ~pinches & ~tetrahedron & ~alone[chosen])
 
 
 def _collapse(surface: _Surface, pairs: IntArray) -> None:

@@ -55,7 +55,7 @@ def look_up_colours(
     (k, 3) array
         sRGB in 0…1.
     """
-    colours = np.einsum("kc,kcd->kd", barycentrics, mesh.corner_colours[face_indices])  # (k, 3)
+    colours: FloatArray = np.einsum("kc,kcd->kd", barycentrics, mesh.corner_colours[face_indices])  # (k, 3)
     uvs = np.einsum("kc,kcd->kd", barycentrics, mesh.corner_uvs[face_indices])  # (k, 2)
     textures = mesh.face_textures[face_indices]  # (k,)
     for number, texture in enumerate(mesh.textures):
@@ -117,7 +117,7 @@ def _levels(corner_uvs: FloatArray, footprints: FloatArray, texture: ByteArray) 
     first = corner_uvs[:, 1] - corner_uvs[:, 0]
     second = corner_uvs[:, 2] - corner_uvs[:, 0]
     texels = np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) / 2 * width * height * footprints
-    return np.floor(np.log2(np.maximum(texels, 1.0)) / 2)
+    return np.asarray(np.floor(np.log2(np.maximum(texels, 1.0)) / 2))
 
 
 def _look_up_texture(texture: ByteArray, uvs: FloatArray, levels: FloatArray) -> FloatArray:

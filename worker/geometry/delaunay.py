@@ -73,7 +73,7 @@ def _not_delaunay(sides: FloatArray, twins: IntArray) -> IntArray:
     cosine_2, sine_2 = _cosine_law(sides[other], sides[_next(other)], sides[_next(_next(other))])
     sine_of_sum = sine * cosine_2 + cosine * sine_2  # negative where the sum is over π
     worst = np.argsort(sine_of_sum, kind="stable")
-    return half[worst[sine_of_sum[worst] < -SLACK]]
+    return np.asarray(half[worst[sine_of_sum[worst] < -SLACK]])
 
 
 def _independent(half: IntArray, twins: IntArray) -> IntArray:
@@ -82,7 +82,7 @@ def _independent(half: IntArray, twins: IntArray) -> IntArray:
     best = np.full(len(twins) // 3, len(half))
     both = np.column_stack([half // 3, twins[half] // 3])
     np.minimum.at(best, both, ranks[:, None])
-    return half[(best[both] == ranks[:, None]).all(axis=1)]
+    return np.asarray(half[(best[both] == ranks[:, None]).all(axis=1)])
 
 
 def _flip(tails: IntArray, sides: FloatArray, twins: IntArray, half: IntArray) -> bool:

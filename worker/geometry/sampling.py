@@ -50,4 +50,4 @@ def cell_areas(points: FloatArray, samples: IntArray, areas: FloatArray) -> Floa
         Sums to the sum of the areas.
     """
     nearest = cKDTree(points[samples]).query(points)[1]
-    return np.bincount(nearest, areas, len(samples))
+    return np.bincount(nearest, areas, len(samples)).astype(np.float64)

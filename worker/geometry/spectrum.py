@@ -30,7 +30,8 @@ def solve_eigenpairs(
     """Find every eigenpair below a cutoff.
 
     Each connected piece is solved by itself, so that many pieces cannot hide one another's pairs. How many
-    there are is known beforehand, from the inertia of W − cutoff A (Sylvester's law; Parlett 1980, section 3.3).
+    there are is known beforehand, from the inertia of W − cutoff A (Sylvester's law; Parlett 1980, section
+    3.3).
 
     Parameters
     ----------
