@@ -1,0 +1,130 @@
+"""The web application: made from settings, opened and closed by its lifespan."""
+
+import contextlib
+import threading
+from collections.abc import AsyncIterator, Callable, Iterator
+from importlib.metadata import version
+
+from anyio import to_thread
+from fastapi import APIRouter, Depends, FastAPI
+
+from service.child import ChildLimits
+from service.dependencies import Services, guard
+from service.describing import Describe, describe_files
+from service.errors import add_handlers
+from service.headers import AddSafeHeaders
+from service.library import Library
+from service.metrics import CountRequests, Metrics
+from service.openapi import DESCRIPTION, SUMMARY, describe_interface
+from service.pool import ProcessPerJob
+from service.routes import contents, events, health, methods, page, search, shapes
+from service.settings import Settings
+from service.turnstile import Turnstile
+from service.workers import Worker, process_name
+
+OpenLibrary = Callable[[Settings], Library]
+
+
+def create_app(
+    settings: Settings, *, open_library: OpenLibrary = Library.open, describe: Describe = describe_files
+) -> FastAPI:
+    """Return the application; nothing is opened before it starts.
+
+    Parameters
+    ----------
+    settings : Settings
+        With ``workers`` above 0 the application also works on the queue, in processes of its own.
+    open_library : callable
+        Opens what the settings name.
+    describe : callable
+        What a child process does with an upload; importable by name.
+    """
+    metrics = Metrics()
+
+    @contextlib.asynccontextmanager
+    async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+        opened = _services(settings, metrics, open_library, describe)
+        app.state.services = await to_thread.run_sync(opened.__enter__)
+        try:
+            yield
+        finally:
+            await to_thread.run_sync(opened.__exit__, None, None, None)
+
+    app = FastAPI(
+        title="Faience",
+        version=version("faience"),
+        summary=SUMMARY,
+        description=DESCRIPTION,
+        lifespan=lifespan,
+        docs_url=None,  # FastAPI's own pages load scripts from elsewhere; ours is in routes.page
+        redoc_url=None,
+    )
+    app.state.key_digests = settings.key_digests
+    app.add_middleware(AddSafeHeaders)
+    app.add_middleware(CountRequests, metrics=metrics)
+    add_handlers(app)
+    _add_routes(app)
+    describe_interface(app)
+    return app
+
+
+def child_limits(settings: Settings) -> ChildLimits:
+    """Return what one job may use."""
+    return ChildLimits(
+        memory_bytes=settings.job_memory_bytes,
+        cpu_seconds=settings.job_cpu_seconds,
+        wall_seconds=settings.job_seconds,
+    )
+
+
+def _add_routes(app: FastAPI) -> None:
+    guarded = APIRouter(prefix="/v1", dependencies=[Depends(guard)])
+    for part in (shapes, contents, search, methods, events):
+        guarded.include_router(part.router)
+    app.include_router(guarded)
+    app.include_router(health.router)
+    app.include_router(page.router)
+
+
+@contextlib.contextmanager
+def _services(
+    settings: Settings, metrics: Metrics, open_library: OpenLibrary, describe: Describe
+) -> Iterator[Services]:
+    """Open everything; close it in the opposite order, children killed, jobs given back."""
+    with contextlib.ExitStack() as stack:
+        library = open_library(settings)
+        stack.callback(library.close)
+        metrics.watch(library)
+        searches = ProcessPerJob(slots=settings.search_slots, limits=child_limits(settings))
+        searches.warm()
+        stack.callback(searches.shutdown, cancel_futures=True)
+        notify = stack.enter_context(_embedded_worker(library, metrics, describe))
+        yield Services(
+            library=library,
+            searches=searches,
+            turnstile=Turnstile(settings.search_slots + settings.search_queue),
+            metrics=metrics,
+            notify=notify,
+            describe=describe,
+        )
+
+
+@contextlib.contextmanager
+def _embedded_worker(library: Library, metrics: Metrics, describe: Describe) -> Iterator[Callable[[], None]]:
+    """Run a worker beside the application; yield what tells it of a new job."""
+    slots = library.settings.workers
+    if slots == 0:
+        yield lambda: None
+        return
+    pool = ProcessPerJob(slots=slots, limits=child_limits(library.settings))
+    worker = Worker(
+        library, pool, slots=slots, name=process_name(), describe=describe, observe=metrics.observe_job
+    )
+    thread = threading.Thread(target=worker.run, name="worker")
+    thread.start()
+    try:
+        yield worker.wake
+    finally:
+        worker.stop()
+        pool.shutdown(cancel_futures=True)
+        thread.join()

@@ -1,0 +1,69 @@
+"""What routes are given."""
+
+from collections.abc import Callable
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from typing import Annotated
+
+from fastapi import Depends, Query, Request
+from fastapi.security import HTTPAuthorizationCredentials
+
+from index.methods import DEFAULT_METHOD
+from service.describing import Describe
+from service.fields import read_weights
+from service.guards import bearer, check_key, check_origin
+from service.library import Library
+from service.metrics import Metrics
+from service.retrieval import Question
+from service.turnstile import Turnstile
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Services:
+    """What the application opened at its start."""
+
+    library: Library
+    searches: Executor  # describes meshes that are not kept
+    turnstile: Turnstile  # before it
+    metrics: Metrics
+    notify: Callable[[], None]  # tells the embedded worker, if there is one, of a new job
+    describe: Describe  # what a child does with an upload
+
+
+def services(request: Request) -> Services:
+    """Return what the lifespan opened."""
+    opened: Services = request.app.state.services
+    return opened
+
+
+def library(request: Request) -> Library:
+    """Return the open library."""
+    return services(request).library
+
+
+def guard(
+    request: Request, credentials: Annotated[HTTPAuthorizationCredentials | None, Depends(bearer)]
+) -> None:
+    """Let in who holds a key, and no pages of other sites."""
+    check_origin(request)
+    check_key(credentials, request.app.state.key_digests)
+
+
+def question(
+    method: Annotated[str, Query(description="a name from /v1/methods")] = DEFAULT_METHOD,
+    limit: Annotated[int, Query(ge=1, le=1000, description="results at most")] = 10,
+    weights: Annotated[
+        str | None,
+        Query(
+            description="own weights, as `block:number,…` or as a JSON object; blocks left out keep theirs",
+            examples=["log-hks:1,colour-histogram:0.5"],
+        ),
+    ] = None,
+) -> Question:
+    """Return how to search, from the query string."""
+    return Question(method=method, limit=limit, weights=read_weights(weights))
+
+
+ServicesPart = Annotated[Services, Depends(services)]
+LibraryPart = Annotated[Library, Depends(library)]
+QuestionPart = Annotated[Question, Depends(question)]

@@ -1,0 +1,140 @@
+"""The one table of exceptions and HTTP statuses, and the form in which errors leave (RFC 9457)."""
+
+import errno
+import logging
+from http import HTTPStatus
+from typing import Any
+
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from sqlalchemy.exc import OperationalError
+from starlette.exceptions import HTTPException
+from starlette.responses import JSONResponse
+
+from index import errors as kept
+from service.fields import BadField
+from service.guards import CrossOrigin, Unauthorised
+from service.multipart import (
+    BadMultipart,
+    FieldTooLong,
+    IncompleteBody,
+    NotMultipart,
+    TooManyFiles,
+    UploadRefused,
+)
+from service.pool import ChildDied, PoolStopped
+from service.turnstile import TooBusy
+from service.uploads import BodyTooLarge, SlowBody
+from service.vocabularies import NoVocabulary, TooFewShapes
+from worker.errors import MeshError
+
+log = logging.getLogger(__name__)
+
+MEDIA_TYPE = "application/problem+json"
+
+# The nearest class of an exception's ancestry decides; a code is the exception's own or stands here.
+TABLE: dict[type[Exception], tuple[HTTPStatus, str]] = {
+    MeshError: (HTTPStatus.UNPROCESSABLE_ENTITY, "The mesh is refused"),
+    BadField: (HTTPStatus.UNPROCESSABLE_ENTITY, "A field is refused"),
+    UploadRefused: (HTTPStatus.UNPROCESSABLE_ENTITY, "The upload is refused"),
+    BadMultipart: (HTTPStatus.BAD_REQUEST, "The body is not well-formed"),
+    IncompleteBody: (HTTPStatus.BAD_REQUEST, "The body is not complete"),
+    NotMultipart: (HTTPStatus.UNSUPPORTED_MEDIA_TYPE, "The body has the wrong media type"),
+    BodyTooLarge: (HTTPStatus.REQUEST_ENTITY_TOO_LARGE, "The body is too large"),
+    FieldTooLong: (HTTPStatus.REQUEST_ENTITY_TOO_LARGE, "A field is too long"),
+    TooManyFiles: (HTTPStatus.REQUEST_ENTITY_TOO_LARGE, "Too many files or fields"),
+    SlowBody: (HTTPStatus.REQUEST_TIMEOUT, "The body came too slowly"),
+    Unauthorised: (HTTPStatus.UNAUTHORIZED, "A key is needed"),
+    CrossOrigin: (HTTPStatus.FORBIDDEN, "Another site's page may not do this"),
+    kept.ShapeNotFound: (HTTPStatus.NOT_FOUND, "There is no such shape"),
+    kept.FileMissing: (HTTPStatus.NOT_FOUND, "There is no such file"),
+    kept.NotReady: (HTTPStatus.CONFLICT, "The shape is not ready"),
+    kept.NotFailed: (HTTPStatus.CONFLICT, "The shape did not fail"),
+    kept.BadCursor: (HTTPStatus.UNPROCESSABLE_ENTITY, "The cursor is refused"),
+    kept.UnknownMethod: (HTTPStatus.UNPROCESSABLE_ENTITY, "There is no such method"),
+    kept.MethodUnavailable: (HTTPStatus.UNPROCESSABLE_ENTITY, "The method is not available"),
+    kept.BadWeights: (HTTPStatus.UNPROCESSABLE_ENTITY, "The weights are refused"),
+    kept.BadBlock: (HTTPStatus.CONFLICT, "The shape's numbers do not fit"),
+    kept.FingerprintMismatch: (HTTPStatus.CONFLICT, "The numbers belong to other parameters"),
+    kept.VocabularyChanged: (HTTPStatus.SERVICE_UNAVAILABLE, "The vocabulary is changing"),
+    kept.StorageFull: (HTTPStatus.INSUFFICIENT_STORAGE, "The disk is full"),
+    kept.CatalogueBusy: (HTTPStatus.SERVICE_UNAVAILABLE, "The catalogue is busy"),
+    OperationalError: (HTTPStatus.SERVICE_UNAVAILABLE, "The catalogue cannot be reached"),
+    NoVocabulary: (HTTPStatus.CONFLICT, "There is no vocabulary"),
+    TooFewShapes: (HTTPStatus.CONFLICT, "There are too few shapes"),
+    TooBusy: (HTTPStatus.SERVICE_UNAVAILABLE, "Too many searches at once"),
+    PoolStopped: (HTTPStatus.SERVICE_UNAVAILABLE, "The service is stopping"),
+    ChildDied: (HTTPStatus.UNPROCESSABLE_ENTITY, "The mesh could not be described"),
+}
+CODES: dict[type[Exception], str] = {
+    OperationalError: "busy",
+    PoolStopped: "stopping",
+    ChildDied: "gave_up",
+}
+FULL = {errno.ENOSPC, errno.EDQUOT}
+
+
+def problem(status: int, *, code: str, title: str, detail: str, **more: Any) -> JSONResponse:
+    """Return an answer of RFC 9457 with a stable ``code``."""
+    body = {"type": f"urn:faience:problem:{code}", "title": title, "status": int(status), "detail": detail}
+    response = JSONResponse({**body, "code": code, **more}, int(status), media_type=MEDIA_TYPE)
+    if status == HTTPStatus.UNAUTHORIZED:
+        response.headers["WWW-Authenticate"] = "Bearer"
+    if status == HTTPStatus.SERVICE_UNAVAILABLE:
+        response.headers["Retry-After"] = "2"
+    return response
+
+
+def add_handlers(app: FastAPI) -> None:
+    """Give every exception its answer."""
+    for known in TABLE:
+        app.add_exception_handler(known, _known)
+    app.add_exception_handler(RequestValidationError, _invalid)
+    app.add_exception_handler(HTTPException, _http)
+    app.add_exception_handler(OSError, _system)
+    app.add_exception_handler(Exception, _unexpected)
+
+
+def _known(request: Request, error: Exception) -> JSONResponse:
+    kind = next(kind for kind in type(error).__mro__ if kind in TABLE)
+    status, title = TABLE[kind]
+    code = CODES.get(kind) or str(getattr(error, "code", "error"))
+    if isinstance(error, OperationalError):
+        log.error("%s %s: the catalogue failed", request.method, request.url.path, exc_info=error)
+        return problem(status, code=code, title=title, detail="try again in a moment")
+    return problem(status, code=code, title=title, detail=str(getattr(error, "detail", "") or error))
+
+
+def _invalid(_: Request, error: Exception) -> JSONResponse:
+    """Name the parts of a request that FastAPI refused, without repeating what was sent."""
+    found = error.errors() if isinstance(error, RequestValidationError) else []
+    parts = [{"where": ".".join(map(str, part["loc"])), "what": part["msg"]} for part in found]
+    detail = "; ".join(f"{part['where']}: {part['what']}" for part in parts[:5]) or "the request is not valid"
+    status, title = HTTPStatus.UNPROCESSABLE_ENTITY, "The request is not valid"
+    return problem(status, code="invalid_request", title=title, detail=detail, errors=parts)
+
+
+def _http(request: Request, error: Exception) -> JSONResponse:
+    """Answer what the framework itself refuses: unknown paths, methods, unreadable bodies."""
+    status = error.status_code if isinstance(error, HTTPException) else HTTPStatus.INTERNAL_SERVER_ERROR
+    phrase = HTTPStatus(status).phrase
+    code = phrase.lower().replace(" ", "_").replace("-", "_")
+    response = problem(
+        status, code=code, title=phrase, detail=f"{request.method} {request.url.path}: {phrase}"
+    )
+    response.headers.update(getattr(error, "headers", None) or {})
+    return response
+
+
+def _system(request: Request, error: Exception) -> JSONResponse:
+    if isinstance(error, OSError) and error.errno in FULL:
+        status, title = TABLE[kept.StorageFull]
+        return problem(status, code="storage_full", title=title, detail="nothing of this request was kept")
+    return _unexpected(request, error)
+
+
+def _unexpected(request: Request, error: Exception) -> JSONResponse:
+    log.error("%s %s failed", request.method, request.url.path, exc_info=error)
+    status, title = HTTPStatus.INTERNAL_SERVER_ERROR, "Something went wrong here"
+    detail = "the service's log says more; the request can be tried again"
+    return problem(status, code="internal_error", title=title, detail=detail)

@@ -1,0 +1,89 @@
+"""What a data folder holds, opened: the one value that use cases are given."""
+
+import shutil
+from dataclasses import dataclass
+
+from sqlalchemy import Engine
+
+from index.catalogue import Catalogue
+from index.database import make_engine, migrate
+from index.errors import StorageFull
+from index.files import FileStore
+from index.queue import Queue
+from index.searcher import Searcher
+from index.vocabulary import default_vocabulary
+from service.incoming import Incoming
+from service.settings import Settings
+from worker.parameters import Parameters
+from worker.reading.limits import Limits
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Library:
+    """The parts of one library, made in one place and handed down."""
+
+    settings: Settings
+    engine: Engine  # of the catalogue's database
+    catalogue: Catalogue
+    queue: Queue
+    files: FileStore  # what was uploaded and what was made of it
+    incoming: Incoming  # temporary files of uploads
+    searcher: Searcher
+    parameters: Parameters  # of every description in this library
+    limits: Limits  # on what is read
+
+    @classmethod
+    def open(
+        cls, settings: Settings, parameters: Parameters | None = None, limits: Limits | None = None
+    ) -> "Library":
+        """Open or make the library of ``settings.data_dir``, migrated, with a vocabulary."""
+        folder = settings.data_dir
+        folder.mkdir(parents=True, exist_ok=True)
+        engine = make_engine(settings.url)
+        migrate(engine)
+        catalogue = Catalogue(engine)
+        parameters = parameters or Parameters()
+        _provide_vocabulary(catalogue, parameters)
+        return cls(
+            settings=settings,
+            engine=engine,
+            catalogue=catalogue,
+            queue=Queue(engine),
+            files=FileStore(folder / "files"),
+            incoming=Incoming(folder / "incoming"),
+            searcher=Searcher(catalogue, folder / "index"),
+            parameters=parameters,
+            limits=limits or Limits(),
+        )
+
+    def check_space(self, size: int) -> None:
+        """Keep a reserve on the disk, so that a full one can still be emptied.
+
+        Parameters
+        ----------
+        size : int
+            Bytes that are about to be written, twice: on arrival and for good.
+
+        Raises
+        ------
+        StorageFull
+        """
+        free = shutil.disk_usage(self.settings.data_dir).free
+        if free < self.settings.reserve_bytes + 2 * size:
+            raise StorageFull(f"{free} bytes are free, too few for an upload of {size} bytes")
+
+    def close(self) -> None:
+        """Save what is only a cache and let go of the rest."""
+        self.searcher.close()
+        self.incoming.close()
+        self.engine.dispose()
+
+
+def _provide_vocabulary(catalogue: Catalogue, parameters: Parameters) -> None:
+    """Activate the vocabulary that ships with the project where there is none yet and it fits."""
+    if catalogue.active_vocabulary() is not None:
+        return
+    shipped = default_vocabulary()
+    if shipped.fingerprint == parameters.fingerprint():
+        catalogue.add_vocabulary(shipped)
+        catalogue.activate(shipped.id)

@@ -1,0 +1,89 @@
+"""The interface's own description: errors, forms and authorisation that FastAPI cannot infer."""
+
+from http import HTTPStatus
+from typing import Any
+
+from fastapi import FastAPI
+from fastapi.openapi.utils import get_openapi
+
+from service.errors import MEDIA_TYPE
+from service.schemas import ProblemModel
+
+SUMMARY = "Search engine for coloured 3D shapes"
+DESCRIPTION = """\
+Upload textured meshes (PLY; OBJ with MTL and images; or a zip of them), ask what looks like one of them.
+
+Errors are `application/problem+json` (RFC 9457) with a stable `code`. Times are RFC 3339.
+Lists are `{"items": […], "next_cursor": …}`; give `next_cursor` back as `cursor` for the next page.
+"""
+
+FORM: dict[str, Any] = {
+    "type": "object",
+    "required": ["files"],
+    "properties": {
+        "files": {
+            "type": "array",
+            "minItems": 1,
+            "items": {"type": "string", "format": "binary"},
+            "description": "one mesh (.ply, or .obj with its .mtl and images), or one .zip; "
+            "the parts' file names may be relative paths",
+        }
+    },
+}
+DETAILS: dict[str, Any] = {
+    "name": {"type": "string", "description": "default: the stem of the mesh file"},
+    "metadata": {"type": "string", "description": "a JSON object", "examples": ['{"period": "archaic"}']},
+    "allow_untextured": {
+        "type": "boolean",
+        "default": False,
+        "description": "accept a mesh whose MTL or images were not sent",
+    },
+}
+
+
+def form_body(*, details: bool) -> dict[str, Any]:
+    """Return the description of a multipart body; it is read while it arrives, not by FastAPI.
+
+    Parameters
+    ----------
+    details : bool
+        Whether name and metadata go with the files.
+    """
+    names = DETAILS if details else {"allow_untextured": DETAILS["allow_untextured"]}
+    schema = {**FORM, "properties": {**FORM["properties"], **names}}
+    return {"requestBody": {"required": True, "content": {"multipart/form-data": {"schema": schema}}}}
+
+
+def problems(*statuses: int) -> dict[int | str, dict[str, Any]]:
+    """Return the description of the errors that a call may answer, next to those of every call."""
+    schema = {"$ref": "#/components/schemas/ProblemModel"}
+    return {
+        status: {"description": HTTPStatus(status).phrase, "content": {MEDIA_TYPE: {"schema": schema}}}
+        for status in sorted({*statuses, 422, 500})
+    }
+
+
+def binary(media_type: str, description: str) -> dict[int | str, dict[str, Any]]:
+    """Return the description of an answer that is a file."""
+    schema = {"type": "string", "format": "binary"}
+    return {200: {"description": description, "content": {media_type: {"schema": schema}}}}
+
+
+def describe_interface(app: FastAPI) -> None:
+    """Let ``app.openapi()`` hold the error model too."""
+
+    def openapi() -> dict[str, Any]:
+        if app.openapi_schema is None:
+            schema = get_openapi(
+                title=app.title,
+                version=app.version,
+                summary=app.summary,
+                description=app.description,
+                routes=app.routes,
+            )
+            models = schema.setdefault("components", {}).setdefault("schemas", {})
+            models["ProblemModel"] = ProblemModel.model_json_schema()
+            app.openapi_schema = schema
+        return app.openapi_schema
+
+    app.openapi = openapi  # type: ignore[method-assign] # the way that FastAPI documents

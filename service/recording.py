@@ -1,0 +1,51 @@
+"""What becomes of a job: its description is stored, or the reason why there is none."""
+
+from dataclasses import asdict
+
+from index.errors import CatalogueError, LeaseLost, ShapeNotFound, VocabularyChanged
+from index.queue import Job
+from index.shapes import Shape
+from service.library import Library
+from service.quantisation import quantise
+from service.storage import PREVIEW, THUMBNAIL, derived_key, save_signatures
+from service.vocabularies import active_vocabulary
+from worker.describe import Description
+
+ATTEMPTS = 5  # while vocabularies change
+
+
+def record_description(library: Library, job: Job, description: Description) -> Shape:
+    """Store what was computed: files first, then everything else in one transaction.
+
+    Raises
+    ------
+    LeaseLost
+        The job is not this worker's any more, or its shape was removed; then nothing is left behind.
+    """
+    shape_id = job.shape_id
+    try:
+        library.files.put(derived_key(shape_id, THUMBNAIL), description.thumbnail)
+        library.files.put(derived_key(shape_id, PREVIEW), description.preview)
+        save_signatures(library.files, shape_id, description.signatures)
+        return _record(library, job, description)
+    except (LeaseLost, ShapeNotFound):
+        if shape_id not in library.catalogue.get_many([shape_id]):
+            library.files.delete_all(f"shapes/{shape_id}")
+        raise
+
+
+def _record(library: Library, job: Job, description: Description) -> Shape:
+    for _ in range(ATTEMPTS):
+        vocabulary = active_vocabulary(library)
+        try:
+            return library.catalogue.record_ready(
+                job,
+                facts=asdict(description.facts),
+                fingerprint=description.fingerprint,
+                blocks=description.blocks,
+                quantised=quantise(description.signatures, vocabulary),
+                vocabulary_id=vocabulary.id,
+            )
+        except VocabularyChanged:
+            continue
+    raise CatalogueError("vocabularies kept changing while a description was stored")

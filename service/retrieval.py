@@ -1,0 +1,216 @@
+"""Use cases, free of HTTP: take a mesh in, change it, remove it, and find what is similar."""
+
+import time
+import uuid
+from collections.abc import Iterable, Mapping
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from typing import Any
+
+from index.errors import NotReady, VocabularyChanged
+from index.methods import DEFAULT_METHOD, method, with_weights
+from index.shapes import Shape, Status, StoredFile
+from service.describing import Describe, describe_files
+from service.library import Library
+from service.quantisation import quantise
+from service.storage import upload_key
+from service.submissions import Submission
+from service.vocabularies import active_vocabulary
+from worker.arrays import SingleArray
+from worker.describe import Description, MeshFacts
+from worker.reading.upload import inspect_upload
+
+ATTEMPTS = 5  # at a query while vocabularies change
+
+
+@dataclass(frozen=True, kw_only=True)
+class Question:
+    """How to search."""
+
+    method: str = DEFAULT_METHOD  # a row of the table of methods
+    limit: int = 10  # results at most
+    weights: Mapping[str, float] | None = None  # block → weight in place of the method's own
+
+
+@dataclass(frozen=True, kw_only=True)
+class Hit:
+    """One result."""
+
+    rank: int  # from 1
+    distance: float  # of the method
+    shape: Shape
+
+
+@dataclass(frozen=True, kw_only=True)
+class Answer:
+    """A ranked answer."""
+
+    method: str
+    milliseconds: float  # from the question to here
+    hits: tuple[Hit, ...]  # nearest first
+    query: MeshFacts | None = None  # of a mesh that is not kept
+
+
+def accept_upload(library: Library, submission: Submission) -> tuple[Shape, bool]:
+    """Keep an upload durably and queue its job.
+
+    Returns
+    -------
+    shape : Shape
+    new : bool
+        False where the same content is known already.
+
+    Raises
+    ------
+    MeshError
+        For what the cheap part of reading finds.
+    StorageFull
+        Nothing was kept.
+    """
+    digest = submission.content_hash()
+    known = library.catalogue.find_content(digest)
+    if known is not None and known.status != Status.FAILED:
+        return known, False
+    inspect_upload(submission.upload(), library.limits)
+    upload_id = uuid.uuid4().hex
+    try:
+        shape, new = library.catalogue.accept(
+            id=uuid.uuid4().hex,
+            name=submission.display_name(),
+            metadata=submission.metadata,
+            sha256=digest,
+            files=_store(library, upload_id, submission),
+            allow_untextured=submission.allow_untextured,
+        )
+    except BaseException:
+        library.files.delete_all(f"uploads/{upload_id}")
+        raise
+    if not new:  # somebody sent the same at the same time
+        library.files.delete_all(f"uploads/{upload_id}")
+    elif known is not None:  # it had failed, and now has new files
+        _delete_files(library, known.files)
+    return shape, new
+
+
+def find_similar(library: Library, shape_id: str, question: Question) -> Answer:
+    """Rank the other shapes by their distance to a stored one.
+
+    Raises
+    ------
+    ShapeNotFound, NotReady, UnknownMethod, MethodUnavailable, BadWeights
+    """
+    start = time.perf_counter()
+    shape = library.catalogue.get(shape_id)
+    if shape.status != Status.READY:
+        raise NotReady(f"the shape is {shape.status}; only a ready one can be compared")
+    for _ in range(ATTEMPTS):
+        vocabulary = active_vocabulary(library)
+        blocks = library.catalogue.blocks(shape_id, vocabulary.id)
+        found = library.searcher.search(
+            question.method, blocks, question.limit, weights=question.weights, exclude=(shape_id,)
+        )
+        if active_vocabulary(library).id == vocabulary.id:
+            return _answer(library, question, found, start)
+    raise VocabularyChanged("vocabularies changed during the query; try again")
+
+
+def search_upload(
+    library: Library,
+    executor: Executor,
+    submission: Submission,
+    question: Question,
+    describe: Describe = describe_files,
+) -> Answer:
+    """Rank the shapes by their distance to a mesh that is not kept.
+
+    Parameters
+    ----------
+    executor : Executor
+        Where ``describe`` runs.
+
+    Raises
+    ------
+    MeshError, UnknownMethod, MethodUnavailable, BadWeights
+    """
+    start = time.perf_counter()
+    check_question(question)
+    inspect_upload(submission.upload(), library.limits)
+    described = executor.submit(
+        describe, submission.paths, submission.allow_untextured, library.parameters, library.limits
+    ).result()
+    found = search_description(library, described, question)
+    return _answer(library, question, found, start, described.facts)
+
+
+def search_description(
+    library: Library, description: Description, question: Question
+) -> list[tuple[str, float]]:
+    """Return ids and distances of the shapes nearest to a description."""
+    for _ in range(ATTEMPTS):
+        vocabulary = active_vocabulary(library)
+        blocks: dict[str, SingleArray] = {
+            **description.blocks,
+            **quantise(description.signatures, vocabulary),
+        }
+        found = library.searcher.search(question.method, blocks, question.limit, weights=question.weights)
+        if active_vocabulary(library).id == vocabulary.id:
+            return found
+    raise VocabularyChanged("vocabularies changed during the query; try again")
+
+
+def change_shape(
+    library: Library, shape_id: str, *, name: str | None = None, metadata: Mapping[str, Any] | None = None
+) -> Shape:
+    """Rename a shape, or replace its metadata, or both."""
+    return library.catalogue.update(shape_id, name=name, metadata=metadata)
+
+
+def remove_shape(library: Library, shape_id: str) -> None:
+    """Forget a shape, then delete its files; a crash between the two is cleaned up by `service.sweeping`."""
+    files = library.catalogue.remove(shape_id)
+    _delete_files(library, files)
+    library.files.delete_all(f"shapes/{shape_id}")
+
+
+def check_question(question: Question) -> None:
+    """Refuse an unknown method or bad weights before anything is computed."""
+    chosen = method(question.method)
+    if question.weights is not None:
+        with_weights(chosen, question.weights)
+
+
+def _store(library: Library, upload_id: str, submission: Submission) -> list[StoredFile]:
+    """Make the files durable, under keys of our own."""
+    stored = []
+    for number, file in enumerate(submission.files):
+        key = upload_key(upload_id, number)
+        with file.path.open("rb") as stream:
+            size, sha256 = library.files.put_stream(key, stream)
+        stored.append(StoredFile(name=file.name, key=key, size=size, sha256=sha256))
+    return stored
+
+
+def _delete_files(library: Library, files: Iterable[StoredFile]) -> None:
+    for file in files:
+        library.files.delete(file.key)
+
+
+def _answer(
+    library: Library,
+    question: Question,
+    found: list[tuple[str, float]],
+    start: float,
+    query: MeshFacts | None = None,
+) -> Answer:
+    """Join distances and shapes; one that was removed in this moment drops out."""
+    shapes = library.catalogue.get_many([shape_id for shape_id, _ in found])
+    kept = [(shapes[shape_id], distance) for shape_id, distance in found if shape_id in shapes]
+    return Answer(
+        method=question.method,
+        milliseconds=1000 * (time.perf_counter() - start),
+        hits=tuple(
+            Hit(rank=rank, distance=distance, shape=shape)
+            for rank, (shape, distance) in enumerate(kept, start=1)
+        ),
+        query=query,
+    )

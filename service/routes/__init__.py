@@ -1,0 +1,1 @@
+"""The calls of the HTTP interface: parse, one use case, a schema."""

@@ -1,0 +1,88 @@
+"""What belongs to a shape: its files, its pictures, its numbers."""
+
+from pathlib import PurePosixPath
+
+from fastapi import APIRouter
+from starlette.responses import FileResponse
+
+from index.errors import FileMissing
+from service.dependencies import LibraryPart
+from service.library import Library
+from service.numbers import shape_numbers
+from service.openapi import binary, problems
+from service.schemas import DescriptorsModel
+from service.storage import PREVIEW, THUMBNAIL, derived_key
+
+router = APIRouter(tags=["contents"])
+
+PRIVATE = {"Cache-Control": "private, max-age=3600"}
+SANDBOX = {"Content-Security-Policy": "default-src 'none'; sandbox", "Cache-Control": "private, no-cache"}
+
+
+@router.get(
+    "/shapes/{shape_id}/files/{name:path}",
+    operation_id="downloadFile",
+    summary="A file as it was uploaded",
+    response_class=FileResponse,
+    responses=binary("application/octet-stream", "the file") | problems(401, 404, 503),
+)
+def download(library: LibraryPart, shape_id: str, name: str) -> FileResponse:
+    """Return the bytes; browsers are told to save them, never to show them."""
+    for file in library.catalogue.get(shape_id).files:
+        if file.name == name:
+            return FileResponse(
+                library.files.path(file.key),
+                media_type="application/octet-stream",
+                filename=PurePosixPath(name).name,
+                headers=SANDBOX,
+            )
+    raise FileMissing(f"the upload held no file named {name!r}")
+
+
+@router.get(
+    "/shapes/{shape_id}/thumbnail.png",
+    operation_id="getThumbnail",
+    summary="A picture",
+    response_class=FileResponse,
+    responses=binary("image/png", "the picture") | problems(401, 404, 503),
+)
+def thumbnail(library: LibraryPart, shape_id: str) -> FileResponse:
+    """Return a picture of a ready shape on a transparent background."""
+    return _derived(library, shape_id, THUMBNAIL, "image/png")
+
+
+@router.get(
+    "/shapes/{shape_id}/preview.glb",
+    operation_id="getPreview",
+    summary="A small mesh for viewers",
+    response_class=FileResponse,
+    responses=binary("model/gltf-binary", "the mesh, with vertex colours") | problems(401, 404, 503),
+)
+def preview(library: LibraryPart, shape_id: str) -> FileResponse:
+    """Return a small coloured mesh of a ready shape."""
+    return _derived(library, shape_id, PREVIEW, "model/gltf-binary")
+
+
+@router.get(
+    "/shapes/{shape_id}/descriptors",
+    operation_id="getDescriptors",
+    summary="The numbers that are compared",
+    responses=problems(401, 404, 409, 503),
+)
+def descriptors(library: LibraryPart, shape_id: str) -> DescriptorsModel:
+    """Return the blocks of a ready shape under the active vocabulary, and its eigenvalues."""
+    numbers = shape_numbers(library, shape_id)
+    return DescriptorsModel(
+        vocabulary=numbers.vocabulary_id,
+        fingerprint=numbers.fingerprint,
+        blocks={name: block.tolist() for name, block in numbers.blocks.items()},
+        eigenvalues={weight: values.tolist() for weight, values in numbers.eigenvalues.items()},
+    )
+
+
+def _derived(library: Library, shape_id: str, name: str, media_type: str) -> FileResponse:
+    library.catalogue.get(shape_id)
+    path = library.files.path(derived_key(shape_id, name))
+    if not path.is_file():
+        raise FileMissing(f"there is no {name} before the shape is ready")
+    return FileResponse(path, media_type=media_type, headers=PRIVATE)

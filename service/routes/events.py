@@ -1,0 +1,68 @@
+"""Server-sent events: shapes that change, in the order of the catalogue's revisions."""
+
+import json
+from collections.abc import AsyncIterator
+from typing import Annotated, Any
+
+import anyio
+from anyio import to_thread
+from fastapi import APIRouter, Header, Query
+from sse_starlette import EventSourceResponse, ServerSentEvent
+
+from service.dependencies import LibraryPart
+from service.library import Library
+from service.openapi import problems
+from service.schemas import ShapeModel
+
+router = APIRouter(tags=["events"])
+
+LOOK_EVERY = 0.5  # seconds
+PING_EVERY = 15  # seconds, so that proxies keep the connection
+
+STREAM: dict[int | str, dict[str, Any]] = {
+    200: {"description": "the stream", "content": {"text/event-stream": {"schema": {"type": "string"}}}}
+}
+
+
+@router.get(
+    "/events",
+    operation_id="watchShapes",
+    summary="Shapes changing state, as they do",
+    response_class=EventSourceResponse,
+    responses=STREAM | problems(401, 503),
+)
+async def watch(
+    library: LibraryPart,
+    last_event_id: Annotated[str | None, Header(description="sent by browsers that reconnect")] = None,
+    since: Annotated[int | None, Query(ge=0, description="a revision to start after; default: now")] = None,
+) -> EventSourceResponse:
+    """Send `shape` (the shape) and `removed` (its id) events; the last of a batch has the revision as id."""
+    start = int(last_event_id) if last_event_id and last_event_id.isdecimal() else since
+    if start is None:
+        start = await to_thread.run_sync(library.catalogue.revision)
+    return EventSourceResponse(_events(library, start), ping=PING_EVERY)
+
+
+async def _events(library: Library, revision: int) -> AsyncIterator[ServerSentEvent]:
+    while True:
+        revision, found = await to_thread.run_sync(_changes, library, revision)
+        for event in found:
+            yield event
+        await anyio.sleep(LOOK_EVERY)
+
+
+def _changes(library: Library, revision: int) -> tuple[int, list[ServerSentEvent]]:
+    """Return what changed after ``revision``, and the revision to ask from next."""
+    if library.catalogue.revision() == revision:
+        return revision, []
+    changes = library.catalogue.changes_since(revision)
+    shapes = library.catalogue.get_many(changes.changed)
+    events = [
+        ServerSentEvent(ShapeModel.of(shapes[shape_id]).model_dump_json(), event="shape")
+        for shape_id in changes.changed
+        if shape_id in shapes
+    ]
+    events += [ServerSentEvent(json.dumps({"id": shape_id}), event="removed") for shape_id in changes.removed]
+    if events:  # only the last carries the id: a client cut off before it gets all of them again
+        events[-1].id = str(changes.revision)
+    return changes.revision, events

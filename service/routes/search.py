@@ -1,0 +1,43 @@
+"""Ranked answers."""
+
+from anyio import to_thread
+from fastapi import APIRouter, Request
+
+from service.dependencies import LibraryPart, QuestionPart, Services, ServicesPart
+from service.openapi import form_body, problems
+from service.retrieval import Answer, Question, find_similar, search_upload
+from service.schemas import AnswerModel
+from service.submissions import Submission
+from service.uploads import receiving
+
+router = APIRouter(tags=["search"])
+
+
+@router.get(
+    "/shapes/{shape_id}/similar",
+    operation_id="findSimilar",
+    summary="What is similar to a stored shape",
+    responses=problems(401, 404, 409, 503),
+)
+def similar(library: LibraryPart, shape_id: str, question: QuestionPart) -> AnswerModel:
+    """Rank the other shapes by their distance to this one."""
+    return AnswerModel.of(find_similar(library, shape_id, question))
+
+
+@router.post(
+    "/search",
+    operation_id="searchByMesh",
+    summary="What is similar to a mesh that is not kept",
+    responses=problems(400, 401, 403, 408, 409, 413, 415, 503, 507),
+    openapi_extra=form_body(details=False),
+)
+async def search(request: Request, services: ServicesPart, question: QuestionPart) -> AnswerModel:
+    """Describe a mesh, rank the shapes by their distance to it, and forget it."""
+    async with receiving(request, services.library) as submission:
+        answer = await to_thread.run_sync(_search, services, submission, question)
+    return AnswerModel.of(answer)
+
+
+def _search(services: Services, submission: Submission, question: Question) -> Answer:
+    with services.turnstile.enter():
+        return search_upload(services.library, services.searches, submission, question, services.describe)

@@ -1,0 +1,101 @@
+"""Run the service: the API and its worker in one process tree, until it is told to stop."""
+
+import contextlib
+import logging
+import threading
+import time
+
+import uvicorn
+from fastapi import FastAPI
+
+from service.app import child_limits, create_app
+from service.first_run import Report, show_samples
+from service.library import Library
+from service.pool import ProcessPerJob
+from service.samples import make_samples
+from service.settings import Settings
+from service.workers import Worker, process_name
+
+log = logging.getLogger(__name__)
+
+GRACE_SECONDS = 10  # for answers that are on their way when the service is stopped
+
+
+def run_server(settings: Settings, workers: int, samples: bool, report: Report = lambda *_: None) -> None:
+    """Serve until SIGINT or SIGTERM; jobs that are not finished go back to the queue.
+
+    Parameters
+    ----------
+    workers : int
+        Jobs at the same time; 0: none here.
+    samples : bool
+        Fill an empty library with the sample creatures, and report a ranked answer for one of them.
+    report : callable
+        Takes a line for the user.
+
+    Raises
+    ------
+    UnsafeListening
+        Other machines would get in without a key.
+    """
+    settings = settings.model_copy(update={"workers": workers})
+    settings.check_listening()
+    _log_to_console()
+    app = create_app(settings)
+    server = uvicorn.Server(_config(app, settings))
+    threading.Thread(target=_accompany, args=(app, server, samples, report), daemon=True).start()
+    with contextlib.suppress(KeyboardInterrupt):  # uvicorn raises it again after a clean stop
+        server.run()
+
+
+def _config(app: FastAPI, settings: Settings) -> uvicorn.Config:
+    return uvicorn.Config(
+        app,
+        host=settings.host,
+        port=settings.port,
+        timeout_graceful_shutdown=GRACE_SECONDS,
+        log_config=None,
+        access_log=False,
+        server_header=False,
+    )
+
+
+def _accompany(app: FastAPI, server: uvicorn.Server, samples: bool, report: Report) -> None:
+    """Say where the service is once it listens, and show the samples."""
+    while not server.started:
+        if server.should_exit:
+            return
+        time.sleep(0.05)
+    for listener in server.servers:
+        for socket in listener.sockets:
+            host, port = socket.getsockname()[:2]
+            report(f"Faience is at http://{host}:{port} (the interface is described at /docs)")
+    if not samples:
+        return
+    try:
+        show_samples(app.state.services.library, make_samples(), lambda: server.should_exit, report)
+    except Exception:  # the samples are a courtesy; the service goes on
+        log.exception("the sample library could not be made")
+
+
+def run_worker(settings: Settings, workers: int, stop: threading.Event) -> None:
+    """Work on a library's queue until ``stop`` is set; unfinished jobs go back to the queue."""
+    _log_to_console()
+    library = Library.open(settings)
+    pool = ProcessPerJob(slots=workers, limits=child_limits(settings))
+    worker = Worker(library, pool, slots=workers, name=process_name())
+    thread = threading.Thread(target=worker.run, name="worker")
+    thread.start()
+    try:
+        stop.wait()
+    finally:
+        worker.stop()
+        pool.shutdown(cancel_futures=True)
+        thread.join()
+        library.close()
+
+
+def _log_to_console() -> None:
+    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(levelname)s %(name)s: %(message)s")
+    for noisy in ("alembic", "uvicorn.access"):
+        logging.getLogger(noisy).setLevel(logging.WARNING)

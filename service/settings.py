@@ -1,0 +1,84 @@
+"""What an operator may change, read from arguments and from the environment (``FAIENCE_…``)."""
+
+import hashlib
+from ipaddress import ip_address
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import Field, SecretStr, field_validator
+from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
+
+
+class UnsafeListening(Exception):  # noqa: N818 - it reads as what is refused
+    """The service would be open to other machines without a key."""
+
+
+class Settings(BaseSettings):
+    """All settings, with defaults for one machine."""
+
+    model_config = SettingsConfigDict(env_prefix="FAIENCE_", frozen=True)
+
+    data_dir: Path = Path("faience-data")  # everything that is kept
+    database_url: str | None = None  # SQLite inside data_dir where none is given
+    host: str = "127.0.0.1"
+    port: int = Field(default=8000, ge=0, le=65535)
+    api_keys: Annotated[tuple[SecretStr, ...], NoDecode] = ()  # separated by commas in the environment
+    insecure: bool = False  # listen beyond this machine without keys
+
+    max_body_bytes: int = Field(default=512 * 2**20, ge=1)  # of one upload
+    max_files: int = Field(default=200, ge=1)  # of one upload
+    max_field_bytes: int = Field(default=64 * 2**10, ge=1)  # of a text field
+    body_idle_seconds: float = Field(default=30, gt=0)  # longest silence while a body is sent
+    body_seconds: float = Field(default=900, gt=0)  # longest time for a whole body
+    reserve_bytes: int = Field(default=64 * 2**20, ge=0)  # free space that uploads leave, for deletes
+
+    workers: int = Field(default=2, ge=0)  # jobs at the same time; 0: no embedded worker
+    job_memory_bytes: int = Field(default=4 * 2**30, ge=2**28)
+    job_cpu_seconds: int = Field(default=300, ge=1)
+    job_seconds: float = Field(default=600, gt=0)
+    lease_seconds: float = Field(default=60, gt=0)  # after so long without a heartbeat a job is taken again
+    poll_seconds: float = Field(default=0.5, gt=0)  # how often an idle worker looks for jobs
+    search_slots: int = Field(default=2, ge=1)  # meshes of `search` described at the same time
+    search_queue: int = Field(default=8, ge=0)  # others that may wait; more are told to come back
+
+    @field_validator("api_keys", mode="before")
+    @classmethod
+    def _split_keys(cls, value: object) -> object:
+        if isinstance(value, str):
+            return tuple(key.strip() for key in value.split(",") if key.strip())
+        return value
+
+    @property
+    def url(self) -> str:
+        """SQLAlchemy address of the catalogue."""
+        return self.database_url or f"sqlite:///{(self.data_dir / 'catalogue.sqlite3').resolve()}"
+
+    @property
+    def key_digests(self) -> tuple[bytes, ...]:
+        """SHA-256 of each API key: what requests are compared with."""
+        return tuple(hashlib.sha256(key.get_secret_value().encode()).digest() for key in self.api_keys)
+
+    def check_listening(self) -> None:
+        """Refuse to be open to other machines without a key.
+
+        Raises
+        ------
+        UnsafeListening
+            With what to do about it.
+        """
+        if self.insecure or self.api_keys or is_loopback(self.host):
+            return
+        raise UnsafeListening(
+            f"refusing to listen on {self.host!r} without a key: other machines could read and delete "
+            "everything. Set FAIENCE_API_KEYS, or pass --insecure where the network itself is trusted."
+        )
+
+
+def is_loopback(host: str) -> bool:
+    """Return whether only this machine reaches ``host``."""
+    if host == "localhost":
+        return True
+    try:
+        return ip_address(host.strip("[]")).is_loopback
+    except ValueError:
+        return False

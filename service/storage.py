@@ -1,0 +1,38 @@
+"""Under which keys a library keeps its files, and the signatures among them."""
+
+import io
+from collections.abc import Mapping
+
+import numpy as np
+
+from index.files import FileStore
+from worker.arrays import SingleArray
+
+THUMBNAIL = "thumbnail.png"
+PREVIEW = "preview.glb"
+SIGNATURES = "signatures.npz"
+
+
+def upload_key(upload_id: str, number: int) -> str:
+    """Return the key of an uploaded file; its own name stays in the catalogue."""
+    return f"uploads/{upload_id}/{number}"
+
+
+def derived_key(shape_id: str, name: str) -> str:
+    """Return the key of something that was computed for a shape."""
+    return f"shapes/{shape_id}/{name}"
+
+
+def save_signatures(files: FileStore, shape_id: str, signatures: Mapping[str, SingleArray]) -> None:
+    """Keep the signatures of a shape, in single precision, for every vocabulary to come."""
+    buffer = io.BytesIO()
+    single = {name: np.asarray(values, dtype=np.float32) for name, values in signatures.items()}
+    np.savez(buffer, allow_pickle=False, **single)
+    files.put(derived_key(shape_id, SIGNATURES), buffer.getvalue())
+
+
+def load_signatures(files: FileStore, shape_id: str) -> dict[str, SingleArray]:
+    """Return the signatures of a ready shape; FileMissing where there are none."""
+    data = files.get(derived_key(shape_id, SIGNATURES))
+    with np.load(io.BytesIO(data), allow_pickle=False) as archive:
+        return {name: archive[name] for name in archive.files}

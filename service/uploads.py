@@ -1,0 +1,112 @@
+"""A request's body becomes a `Submission` in a temporary folder, or a refusal that leaves nothing behind."""
+
+import contextlib
+import time
+from collections.abc import AsyncIterator
+from pathlib import Path
+
+import anyio
+from anyio import to_thread
+from starlette.requests import ClientDisconnect, Request
+
+from service.fields import BadField, check_name, read_flag, read_metadata
+from service.library import Library
+from service.multipart import FormLimits, FormReceiver, IncompleteBody, UploadRefused
+from service.settings import Settings
+from service.submissions import Submission
+
+FIELDS = frozenset({"name", "metadata", "allow_untextured"})
+
+
+class BodyTooLarge(UploadRefused):
+    """The body is longer than one upload may be."""
+
+    code = "body_too_large"
+
+
+class SlowBody(UploadRefused):
+    """The body came too slowly."""
+
+    code = "slow_body"
+
+
+class NoFiles(UploadRefused):
+    """The form holds no file."""
+
+    code = "no_files"
+
+
+@contextlib.asynccontextmanager
+async def receiving(request: Request, library: Library) -> AsyncIterator[Submission]:
+    """Receive a whole upload; its temporary files are gone when the block ends.
+
+    Raises
+    ------
+    UploadRefused, BadField, MeshError, StorageFull
+        What is wrong with it.
+    """
+    settings = library.settings
+    announced = request.headers.get("content-length", "0")
+    if announced.isdecimal():
+        _check_size(int(announced), settings)
+        await to_thread.run_sync(library.check_space, int(announced))
+    scratch = library.incoming.scratch()
+    folder = await to_thread.run_sync(scratch.__enter__)
+    try:
+        yield _submission(await _receive(request, folder, settings))
+    finally:
+        with anyio.CancelScope(shield=True):
+            await to_thread.run_sync(scratch.__exit__, None, None, None)
+
+
+async def _receive(request: Request, folder: Path, settings: Settings) -> FormReceiver:
+    limits = FormLimits(files=settings.max_files, field_bytes=settings.max_field_bytes)
+    receiver = FormReceiver(request.headers.get("content-type", ""), folder, limits)
+    try:
+        async for chunk in _chunks(request, settings):
+            await to_thread.run_sync(receiver.write, chunk)
+        receiver.finish()
+    except ClientDisconnect as error:
+        raise IncompleteBody("the connection closed before the body was complete") from error
+    finally:
+        receiver.close()
+    return receiver
+
+
+async def _chunks(request: Request, settings: Settings) -> AsyncIterator[bytes]:
+    """Yield the body's pieces while it keeps to its size and its deadlines."""
+    stream = request.stream()
+    deadline = time.monotonic() + settings.body_seconds
+    size = 0
+    while True:
+        patience = min(settings.body_idle_seconds, deadline - time.monotonic())
+        try:
+            with anyio.fail_after(max(patience, 0)):
+                chunk = await anext(stream)
+        except StopAsyncIteration:
+            return
+        except TimeoutError as error:
+            raise SlowBody(f"the body came too slowly; {size} bytes had arrived") from error
+        size += len(chunk)
+        _check_size(size, settings)
+        yield chunk
+
+
+def _check_size(size: int, settings: Settings) -> None:
+    if size > settings.max_body_bytes:
+        raise BodyTooLarge(f"an upload has at most {settings.max_body_bytes} bytes")
+
+
+def _submission(received: FormReceiver) -> Submission:
+    if not received.files:
+        raise NoFiles("the form holds no file; send at least one in the field 'files'")
+    unknown = set(received.fields) - FIELDS
+    if unknown:
+        raise BadField(f"unknown field {min(unknown)!r}; known are files, {', '.join(sorted(FIELDS))}")
+    name = received.fields.get("name", "").strip()
+    return Submission(
+        files=tuple(received.files),
+        name=check_name(name) if name else None,
+        metadata=read_metadata(received.fields.get("metadata") or "{}"),
+        allow_untextured=read_flag("allow_untextured", received.fields.get("allow_untextured", "")),
+    )

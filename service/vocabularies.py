@@ -1,0 +1,91 @@
+"""The active vocabulary, and how a library learns its own."""
+
+from collections.abc import Callable, Iterator
+
+from index.errors import FileMissing, ShapeNotFound
+from index.shapes import Status
+from index.vocabulary import Vocabulary
+from index.vocabulary import learn_vocabulary as learn
+from service.library import Library
+from service.quantisation import quantise
+from service.storage import load_signatures
+from worker.arrays import SingleArray
+
+BATCH = 100  # shapes between two questions to the catalogue
+Progress = Callable[[int, int], None]  # shapes done, shapes known so far
+
+
+class NoVocabulary(Exception):  # noqa: N818 - it reads as what is missing
+    """No vocabulary of these parameters is active; one must be learnt first."""
+
+    code = "no_vocabulary"
+
+
+class TooFewShapes(Exception):  # noqa: N818 - it reads as what is missing
+    """A vocabulary cannot be learnt from so few shapes."""
+
+    code = "too_few_shapes"
+
+
+def active_vocabulary(library: Library) -> Vocabulary:
+    """Return the vocabulary that queries and records use now."""
+    vocabulary = library.catalogue.active_vocabulary()
+    if vocabulary is None:
+        raise NoVocabulary("no vocabulary is active; learn one with `faience learn-vocabulary`")
+    return vocabulary
+
+
+def learn_vocabulary(library: Library, progress: Progress = lambda *_: None) -> Vocabulary:
+    """Learn a vocabulary from all ready shapes, quantise them by it, then make it the active one.
+
+    Nothing is solved again: the signatures are stored. Until the last step queries are answered with
+    the vocabulary that was active before.
+
+    Parameters
+    ----------
+    progress : callable
+        Told how many shapes are quantised, of how many.
+
+    Raises
+    ------
+    TooFewShapes
+    """
+    if library.catalogue.counts().get(Status.READY, 0) == 0:
+        raise TooFewShapes("no shape is ready; add shapes first")
+    vocabulary = learn(_all_signatures(library), library.parameters.fingerprint())
+    adopt_vocabulary(library, vocabulary, progress)
+    return vocabulary
+
+
+def adopt_vocabulary(library: Library, vocabulary: Vocabulary, progress: Progress) -> None:
+    """Quantise every ready shape by ``vocabulary``, those that become ready meanwhile too; activate it."""
+    library.catalogue.add_vocabulary(vocabulary)
+    done = 0
+    while not library.catalogue.activate(vocabulary.id):
+        for shape_id in library.catalogue.missing_from(vocabulary.id, BATCH):
+            _quantise_shape(library, vocabulary, shape_id)
+            done += 1
+            progress(done, max(done, library.catalogue.counts().get(Status.READY, 0)))
+
+
+def _quantise_shape(library: Library, vocabulary: Vocabulary, shape_id: str) -> None:
+    try:
+        signatures = load_signatures(library.files, shape_id)
+        library.catalogue.add_quantised(shape_id, vocabulary.id, quantise(signatures, vocabulary))
+    except (FileMissing, ShapeNotFound):
+        if shape_id in library.catalogue.get_many([shape_id]):
+            raise  # it is not gone: its signatures are, and that must be known
+
+
+def _all_signatures(library: Library) -> Iterator[dict[str, SingleArray]]:
+    cursor = None
+    while True:
+        page = library.catalogue.list(limit=BATCH, cursor=cursor, status=Status.READY)
+        for shape in page.items:
+            try:
+                yield load_signatures(library.files, shape.id)
+            except FileMissing:
+                continue  # removed while this goes on
+        cursor = page.next_cursor
+        if cursor is None:
+            return

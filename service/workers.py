@@ -1,0 +1,196 @@
+"""The worker: claim a job, have it computed, record what came of it."""
+
+import logging
+import os
+import socket
+import threading
+import time
+from collections.abc import Callable
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from dataclasses import dataclass
+
+from index.errors import CatalogueBusy, LeaseLost, ShapeNotFound, StorageFull
+from index.queue import Job
+from service.child import ChildError
+from service.describing import Describe, describe_files
+from service.library import Library
+from service.pool import ChildDied, PoolStopped
+from service.recording import record_description
+from worker.describe import Description
+from worker.errors import MeshError
+
+log = logging.getLogger(__name__)
+
+Observer = Callable[[str, float], None]  # outcome ("ready", or a code), seconds
+
+TRIES = 2  # of a job whose process dies, in one claim
+
+
+def process_name() -> str:
+    """Return a name for this process's worker, for the log and the queue."""
+    return f"{socket.gethostname()}:{os.getpid()}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Attempt:
+    """A job that is being computed."""
+
+    job: Job
+    tries: int  # submissions so far, this one included
+    started: float  # by the monotonic clock
+
+
+class Worker:
+    """Takes jobs from a library's queue and runs them on an executor.
+
+    One thread does everything here: it claims, waits, records and keeps the leases alive. The
+    computing is the executor's.
+
+    Parameters
+    ----------
+    executor : Executor
+        `service.pool.ProcessPerJob`, or that of a cluster which sees the same files.
+    slots : int
+        Jobs at the same time.
+    describe : callable
+        What a job is; importable by name.
+    observe : callable
+        Told of each job's outcome and duration, for metrics.
+    """
+
+    def __init__(
+        self,
+        library: Library,
+        executor: Executor,
+        *,
+        slots: int,
+        name: str = "worker",
+        describe: Describe = describe_files,
+        observe: Observer = lambda *_: None,
+    ) -> None:
+        self._library, self._executor = library, executor
+        self._slots, self._name = slots, name
+        self._describe, self._observe = describe, observe
+        self._running: dict[Future[Description], Attempt] = {}
+        self._wake, self._stopping = threading.Event(), threading.Event()
+        self._next_heartbeat = 0.0
+
+    def run(self) -> None:
+        """Work until `stop`; then give back what is unfinished."""
+        try:
+            while not self._stopping.is_set():
+                try:
+                    self._step()
+                except Exception:  # a database that is away for a while must not end the worker
+                    log.exception("the worker goes on after an error")
+                    self._stopping.wait(self._library.settings.poll_seconds)
+        finally:
+            self._give_back()
+
+    def wake(self) -> None:
+        """Look for jobs now: one was just accepted in this process."""
+        self._wake.set()
+
+    def stop(self) -> None:
+        """Ask `run` to end."""
+        self._stopping.set()
+        self._wake.set()
+
+    def _step(self) -> None:
+        self._wake.clear()
+        self._claim()
+        for future in self._finished():
+            attempt = self._running.pop(future)
+            self._settle(future, attempt)
+        self._heartbeat()
+
+    def _claim(self) -> None:
+        while len(self._running) < self._slots and not self._stopping.is_set():
+            job = self._library.queue.claim(self._name, self._library.settings.lease_seconds)
+            if job is None:
+                return
+            self._submit(job, tries=1)
+
+    def _submit(self, job: Job, tries: int) -> None:
+        library = self._library
+        try:
+            shape = library.catalogue.get(job.shape_id)
+        except ShapeNotFound:  # removed since the claim
+            return
+        paths = {file.name: library.files.path(file.key) for file in shape.files}
+        future = self._executor.submit(
+            self._describe, paths, shape.allow_untextured, library.parameters, library.limits
+        )
+        self._running[future] = Attempt(job=job, tries=tries, started=time.monotonic())
+
+    def _finished(self) -> list[Future[Description]]:
+        patience = self._library.settings.poll_seconds
+        if not self._running:
+            self._wake.wait(patience)
+            return []
+        done, _ = wait(self._running, timeout=patience, return_when=FIRST_COMPLETED)
+        return list(done)
+
+    def _settle(self, future: Future[Description], attempt: Attempt) -> None:
+        """Record one outcome."""
+        try:
+            outcome = self._record(future, attempt)
+        except (LeaseLost, ShapeNotFound) as error:
+            log.info("job %s is not ours any more: %s", attempt.job.id, error)
+            return
+        except (StorageFull, CatalogueBusy) as error:
+            log.warning("shape %s waits: %s", attempt.job.shape_id, error)
+            self._library.queue.give_back(attempt.job)
+            self._stopping.wait(self._library.settings.lease_seconds / 3)
+            return
+        if outcome is not None:
+            self._observe(outcome, time.monotonic() - attempt.started)
+
+    def _record(self, future: Future[Description], attempt: Attempt) -> str | None:
+        job = attempt.job
+        try:
+            record_description(self._library, job, future.result())
+            return "ready"
+        except MeshError as error:
+            return self._fail(job, error.code, error.detail)
+        except PoolStopped:
+            self._library.queue.give_back(job)
+            return None
+        except ChildDied as error:
+            return self._retry(attempt, str(error))
+        except ChildError as error:
+            log.error("describing shape %s failed unexpectedly:\n%s", job.shape_id, error)
+            return self._fail(job, "unexpected", "the mesh could not be described, for a reason of our own")
+
+    def _retry(self, attempt: Attempt, reason: str) -> str | None:
+        log.warning("shape %s, try %d: %s", attempt.job.shape_id, attempt.tries, reason)
+        if attempt.tries < TRIES:
+            self._submit(attempt.job, attempt.tries + 1)
+            return None
+        return self._fail(attempt.job, "gave_up", f"{reason}, {attempt.tries} times in a row")
+
+    def _fail(self, job: Job, code: str, detail: str) -> str:
+        self._library.catalogue.record_failed(job, code=code, detail=detail)
+        return code
+
+    def _heartbeat(self) -> None:
+        """Prolong the leases three times in their length; forget jobs that were lost."""
+        if time.monotonic() < self._next_heartbeat:
+            return
+        lease = self._library.settings.lease_seconds
+        self._next_heartbeat = time.monotonic() + lease / 3
+        for future, attempt in list(self._running.items()):
+            try:
+                self._library.queue.heartbeat(attempt.job, lease)
+            except LeaseLost:
+                future.cancel()
+                del self._running[future]
+
+    def _give_back(self) -> None:
+        for future, attempt in self._running.items():
+            future.cancel()
+            try:
+                self._library.queue.give_back(attempt.job)
+            except Exception:
+                log.exception("job %s could not be given back; its lease will run out", attempt.job.id)
+        self._running.clear()
