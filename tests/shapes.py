@@ -60,7 +60,7 @@ def sheet(n: int, width: float = 1.0, height: float = 1.0) -> tuple[FloatArray, 
 
 
 def box() -> tuple[FloatArray, IntArray, FloatArray]:
-    """Return the unit cube as 12 triangles, and texture coordinates (12, 3, 2) that show an image on each side."""
+    """Return the unit cube as 12 triangles, and (12, 3, 2) texture coordinates: an image on each side."""
     vertices = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
     sides = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     faces = np.vstack([np.array(side)[SQUARE] for side in sides])

@@ -89,7 +89,7 @@ def test_the_inertia_counts_the_eigenvalues(seed: int, value: float) -> None:
 
 def test_each_of_many_pieces_keeps_its_constant_function() -> None:
     one, triangles = sheet(2, 3.0, 3.0)
-    pieces = [one + [10.0 * k, 0, 0] for k in range(300)]
+    pieces = [one + np.array([10.0 * k, 0, 0]) for k in range(300)]
     faces = np.vstack([triangles + len(one) * k for k in range(300)])
     pairs = solve_eigenpairs(*cotangent_laplacian(np.vstack(pieces), faces), PARAMETERS.cutoff)
     np.testing.assert_allclose(pairs.eigenvalues, np.zeros(300), atol=1e-12)

@@ -29,9 +29,8 @@ def diffusion_distances(eigenvalues: FloatArray, eigenfunctions: FloatArray, tim
     coordinates = eigenfunctions * decay  # (s, k); constant functions cancel in the differences
     coordinates = (coordinates - coordinates.mean(axis=0)).astype(np.float32)
     norms = np.square(coordinates).sum(axis=1)
-    squares = coordinates @ (np.float32(-2.0) * coordinates.T)  # (s, s)
-    squares += norms[:, None]
-    squares += norms
+    squares = np.add.outer(norms, norms)  # (s, s)
+    squares -= np.float32(2.0) * (coordinates @ coordinates.T)
     np.maximum(squares, 0.0, out=squares)
     np.fill_diagonal(squares, 0.0)
     return np.asarray(np.sqrt(squares, out=squares))
