@@ -21,7 +21,7 @@ class Surface:
     faces: IntArray  # (m, 3)
     srgb: FloatArray  # (n, 3), area average of the colour over each vertex's cell, 0…1
     lab: FloatArray  # (n, 3), the same average in CIE Lab
-    sample_lab: FloatArray  # (k, 3), colours of equal-area samples, finer than the vertices
+    sample_lab: FloatArray  # (k, 3), the source's own colours at equal-area samples, not averaged
 
 
 def canonical_surface(mesh: Mesh, repaired: Repaired, parameters: Parameters) -> Surface:
@@ -45,7 +45,8 @@ def canonical_surface(mesh: Mesh, repaired: Repaired, parameters: Parameters) ->
     indices, barycentrics = sample_surface(source, repaired.faces, parameters.colour_samples)
     vectors = face_vectors(source, repaired.faces)
     footprints = area / parameters.colour_samples / np.linalg.norm(vectors, axis=1)[indices]
-    srgb = look_up_colours(mesh, repaired.source_faces[indices], barycentrics, np.minimum(footprints, 1.0))
+    faces_read, places_read = _in_source(repaired, indices, barycentrics)
+    srgb = look_up_colours(mesh, faces_read, places_read, np.minimum(footprints, 1.0))
     lab = srgb_to_lab(srgb)
     points = np.einsum("kc,kcd->kd", barycentrics, source[repaired.faces[indices]])
     means = average_over_cells(
@@ -56,4 +57,14 @@ def canonical_surface(mesh: Mesh, repaired: Repaired, parameters: Parameters) ->
         vertex_normals(vertices, faces),
         edge_of(area, n_vertices),
     )
-    return Surface(vertices=vertices, faces=faces, srgb=means[:, :3], lab=means[:, 3:], sample_lab=lab)
+    texels = srgb_to_lab(look_up_colours(mesh, faces_read, places_read)) if mesh.textures else lab
+    return Surface(vertices=vertices, faces=faces, srgb=means[:, :3], lab=means[:, 3:], sample_lab=texels)
+
+
+def _in_source(
+    repaired: Repaired, indices: IntArray, barycentrics: FloatArray
+) -> tuple[IntArray, FloatArray]:
+    """Name points of the repaired surface by the faces and corners of the mesh as read."""
+    places = np.empty_like(barycentrics)
+    np.put_along_axis(places, repaired.source_corners[indices], barycentrics, axis=1)
+    return repaired.source_faces[indices], places

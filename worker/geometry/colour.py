@@ -48,7 +48,7 @@ def look_up_colours(
         Its barycentric coordinates there.
     footprints : (k,) array, optional
         The share of its face's area that each point stands for: a texture is averaged over so much
-        (mip-mapping, Williams 1983). Without it the texture is read at full resolution.
+        (mip-mapping, Williams 1983). Without it the nearest texel is taken.
 
     Returns
     -------
@@ -62,10 +62,11 @@ def look_up_colours(
         inside = np.flatnonzero(textures == number)
         if len(inside) == 0:
             continue
-        levels = np.zeros(len(inside))
-        if footprints is not None:
+        if footprints is None:
+            colours[inside] = _nearest(texture, uvs[inside]) / 255.0
+        else:
             levels = _levels(mesh.corner_uvs[face_indices[inside]], footprints[inside], texture)
-        colours[inside] = _look_up_texture(texture, uvs[inside], levels)
+            colours[inside] = _filtered(texture, uvs[inside], levels) / 255.0
     return colours
 
 
@@ -120,8 +121,16 @@ def _levels(corner_uvs: FloatArray, footprints: FloatArray, texture: ByteArray) 
     return np.asarray(np.floor(np.log2(np.maximum(texels, 1.0)) / 2))
 
 
-def _look_up_texture(texture: ByteArray, uvs: FloatArray, levels: FloatArray) -> FloatArray:
-    """Read a texture bilinearly at each point's level; coordinates repeat."""
+def _nearest(texture: ByteArray, uvs: FloatArray) -> FloatArray:
+    """Read the texel that each point lies in; coordinates repeat."""
+    height, width = texture.shape[:2]
+    column = np.floor((uvs[:, 0] % 1.0) * width).astype(np.int64) % width
+    row = np.floor(((1.0 - uvs[:, 1]) % 1.0) * height).astype(np.int64) % height
+    return np.asarray(texture[row, column], dtype=np.float64)
+
+
+def _filtered(texture: ByteArray, uvs: FloatArray, levels: FloatArray) -> FloatArray:
+    """Read a texture bilinearly at each point's level of its pyramid; coordinates repeat."""
     colours = np.empty((len(uvs), 3))
     image = Image.fromarray(texture)
     last = int(np.log2(max(min(texture.shape[:2]), 1)))
@@ -130,7 +139,7 @@ def _look_up_texture(texture: ByteArray, uvs: FloatArray, levels: FloatArray) ->
         inside = np.flatnonzero(levels == level)
         reduced = np.asarray(image.reduce(2 ** int(level)) if level else image)
         colours[inside] = _bilinear(reduced, uvs[inside])
-    return colours / 255.0
+    return colours
 
 
 def _bilinear(image: ByteArray, uvs: FloatArray) -> FloatArray:

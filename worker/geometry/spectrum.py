@@ -7,7 +7,7 @@ from scipy import linalg, sparse
 from scipy.sparse import csgraph
 from scipy.sparse.linalg import LinearOperator, SuperLU, eigsh, splu
 
-from worker.arrays import FloatArray, IntArray
+from worker.arrays import FloatArray
 from worker.errors import Code, MeshError
 
 SHIFT = -2e-3  # of the inverse iteration, just below the spectrum
@@ -142,10 +142,3 @@ def _fix_signs(vectors: FloatArray, mass: FloatArray) -> FloatArray:
     """Choose the sign of each eigenfunction: its third moment is not negative."""
     moments = np.sum(mass[:, None] * vectors**3, axis=0)
     return vectors * np.where(moments < 0, -1.0, 1.0)
-
-
-def count_pieces(faces: IntArray, n_vertices: int) -> int:
-    """Count the connected pieces of a mesh; (m, 3) faces."""
-    ends = np.ones(len(faces) * 2), (np.repeat(faces[:, 0], 2), faces[:, 1:].ravel())
-    graph = sparse.coo_array(ends, shape=(n_vertices, n_vertices))
-    return int(csgraph.connected_components(graph, directed=False)[0])
