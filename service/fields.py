@@ -1,10 +1,12 @@
 """Text that users send in forms, queries and bodies, read strictly and with an answer that helps."""
 
 import json
+import re
 from collections.abc import Mapping
 from typing import Any, NoReturn
 
 TRUE, FALSE = frozenset({"true", "1", "yes", "on"}), frozenset({"false", "0", "no", "off", ""})
+NUL = re.compile(r"(?<!\\)(?:\\\\)*\\u0000")  # as JSON writes it, not a backslash before "u0000"
 NAME_LENGTH = 500  # characters
 
 
@@ -56,7 +58,7 @@ def check_metadata(value: object) -> dict[str, Any]:
         text.encode()  # lone surrogates have no encoding
     except (ValueError, RecursionError) as error:
         raise BadMetadata(f"metadata cannot be stored: {error}") from error
-    if "\\u0000" in text:
+    if NUL.search(text):
         raise BadMetadata("metadata holds a NUL character")
     return value
 
@@ -68,7 +70,10 @@ def read_weights(text: str | None) -> dict[str, float] | None:
     if text.lstrip().startswith("{"):
         pairs: Mapping[str, Any] = _json(text, UnreadableWeights)
     else:
-        pairs = dict(_pair(part) for part in text.split(","))
+        parts = [_pair(part) for part in text.split(",")]
+        pairs = dict(parts)
+        if len(pairs) < len(parts):
+            raise UnreadableWeights("a block is named twice")
     return {block: _number(block, value) for block, value in pairs.items()}
 
 

@@ -11,7 +11,7 @@ from index.errors import StorageFull
 from index.files import FileStore
 from index.queue import Queue
 from index.searcher import Searcher
-from index.vocabulary import default_vocabulary
+from index.vocabulary import Vocabulary, default_vocabulary
 from service.incoming import Incoming
 from service.settings import Settings
 from worker.parameters import Parameters
@@ -34,16 +34,27 @@ class Library:
 
     @classmethod
     def open(
-        cls, settings: Settings, parameters: Parameters | None = None, limits: Limits | None = None
+        cls,
+        settings: Settings,
+        *,
+        parameters: Parameters | None = None,
+        limits: Limits | None = None,
+        vocabulary: Vocabulary | None = None,
     ) -> "Library":
-        """Open or make the library of ``settings.data_dir``, migrated, with a vocabulary."""
+        """Open or make the library of ``settings.data_dir``, migrated, with a vocabulary.
+
+        Parameters
+        ----------
+        vocabulary : Vocabulary, optional
+            For a library that has none yet; the one that ships with the project otherwise.
+        """
         folder = settings.data_dir
         folder.mkdir(parents=True, exist_ok=True)
         engine = make_engine(settings.url)
         migrate(engine)
         catalogue = Catalogue(engine)
         parameters = parameters or Parameters()
-        _provide_vocabulary(catalogue, parameters)
+        _provide_vocabulary(catalogue, parameters, vocabulary)
         return cls(
             settings=settings,
             engine=engine,
@@ -79,11 +90,11 @@ class Library:
         self.engine.dispose()
 
 
-def _provide_vocabulary(catalogue: Catalogue, parameters: Parameters) -> None:
-    """Activate the vocabulary that ships with the project where there is none yet and it fits."""
+def _provide_vocabulary(catalogue: Catalogue, parameters: Parameters, first: Vocabulary | None) -> None:
+    """Activate a first vocabulary where there is none yet, if it fits the parameters."""
     if catalogue.active_vocabulary() is not None:
         return
-    shipped = default_vocabulary()
-    if shipped.fingerprint == parameters.fingerprint():
-        catalogue.add_vocabulary(shipped)
-        catalogue.activate(shipped.id)
+    first = first or default_vocabulary()
+    if first.fingerprint == parameters.fingerprint():
+        catalogue.add_vocabulary(first)
+        catalogue.activate(first.id)

@@ -8,7 +8,7 @@ from typing import BinaryIO, TypeVar
 
 from python_multipart import MultipartParser
 from python_multipart.exceptions import FormParserError
-from python_multipart.multipart import MultipartCallbacks, parse_options_header
+from python_multipart.multipart import parse_options_header
 
 from service.submissions import ReceivedFile, safe_name
 
@@ -88,7 +88,7 @@ class FormReceiver:
         self._header_name, self._header_value = b"", b""
         self._disposition = b""
         self._part: _FilePart | _FieldPart | None = None
-        self._parser = _checked(lambda: MultipartParser(options[b"boundary"], self._callbacks()))
+        self._parser = _checked(lambda: self._make_parser(options[b"boundary"]))
 
     def write(self, chunk: bytes) -> None:
         """Take the next piece of the body."""
@@ -104,17 +104,20 @@ class FormReceiver:
         if isinstance(self._part, _FilePart):
             self._part.stream.close()
 
-    def _callbacks(self) -> MultipartCallbacks:
-        return {
-            "on_part_begin": self._begin,
-            "on_header_field": self._add_header_name,
-            "on_header_value": self._add_header_value,
-            "on_header_end": self._end_header,
-            "on_headers_finished": self._open_part,
-            "on_part_data": self._add_data,
-            "on_part_end": self._end_part,
-            "on_end": self._end,
-        }
+    def _make_parser(self, boundary: bytes) -> MultipartParser:
+        return MultipartParser(
+            boundary,
+            {
+                "on_part_begin": self._begin,
+                "on_header_field": self._add_header_name,
+                "on_header_value": self._add_header_value,
+                "on_header_end": self._end_header,
+                "on_headers_finished": self._open_part,
+                "on_part_data": self._add_data,
+                "on_part_end": self._end_part,
+                "on_end": self._end,
+            },
+        )
 
     def _begin(self) -> None:
         self._disposition = b""

@@ -47,15 +47,11 @@ class ProcessPerJob(Executor):
         Jobs at the same time.
     limits : ChildLimits
         What each may use.
-    preload : tuple of str
-        Modules that the fork server imports before it forks.
     """
 
-    def __init__(
-        self, *, slots: int, limits: ChildLimits, preload: tuple[str, ...] = ("service.preload",)
-    ) -> None:
+    def __init__(self, *, slots: int, limits: ChildLimits) -> None:
         self._context = multiprocessing.get_context("forkserver")
-        self._context.set_forkserver_preload(list(preload))
+        self._context.set_forkserver_preload(["service.preload"])
         self._limits = limits
         self._threads = ThreadPoolExecutor(max_workers=slots, thread_name_prefix="job")
         self._children: set[ForkServerProcess] = set()

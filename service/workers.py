@@ -16,6 +16,7 @@ from service.describing import Describe, describe_files
 from service.library import Library
 from service.pool import ChildDied, PoolStopped
 from service.recording import record_description
+from service.sweeping import sweep
 from worker.describe import Description
 from worker.errors import MeshError
 
@@ -76,8 +77,9 @@ class Worker:
         self._next_heartbeat = 0.0
 
     def run(self) -> None:
-        """Work until `stop`; then give back what is unfinished."""
+        """Clean up after crashes, then work until `stop`; give back what is unfinished."""
         try:
+            self._sweep()
             while not self._stopping.is_set():
                 try:
                     self._step()
@@ -86,6 +88,12 @@ class Worker:
                     self._stopping.wait(self._library.settings.poll_seconds)
         finally:
             self._give_back()
+
+    def _sweep(self) -> None:
+        try:
+            log.info("swept %d files that no shape needs", sweep(self._library))
+        except Exception:
+            log.exception("the files could not be swept; the worker goes on")
 
     def wake(self) -> None:
         """Look for jobs now: one was just accepted in this process."""
