@@ -41,7 +41,7 @@ class FileStore:
         StorageFull
             The disk is full; nothing is left behind.
         """
-        self._write(key, lambda file: file.write(data))
+        self.write(key, lambda file: file.write(data))
 
     def put_stream(self, key: str, stream: BinaryIO) -> tuple[int, str]:
         """Keep what `stream` holds, piece by piece; return its size and SHA-256.
@@ -59,7 +59,28 @@ class FileStore:
                 file.write(piece)
             return file.tell()
 
-        return self._write(key, copy), digest.hexdigest()
+        return self.write(key, copy), digest.hexdigest()
+
+    def write(self, key: str, fill: Callable[[IO[bytes]], int]) -> int:
+        """Keep what `fill` writes into the file it is given; return what it returns.
+
+        Raises
+        ------
+        StorageFull
+            The disk is full; nothing is left behind.
+        """
+        final = self.path(key)
+        aside = self._root / _INCOMING / uuid4().hex
+        with full_disk_named():
+            try:
+                _make_folder(aside.parent)
+                size = _write_through(aside, fill)
+                self._rename(aside, final)
+            except BaseException:
+                aside.unlink(missing_ok=True)
+                self._prune(final.parent)
+                raise
+        return size
 
     def get(self, key: str) -> bytes:
         """Return the whole content; FileMissing where there is none."""
@@ -104,20 +125,6 @@ class FileStore:
                     path.unlink()
                     swept += 1
         return swept
-
-    def _write(self, key: str, fill: Callable[[IO[bytes]], int]) -> int:
-        final = self.path(key)
-        aside = self._root / _INCOMING / uuid4().hex
-        with full_disk_named():
-            try:
-                _make_folder(aside.parent)
-                size = _write_through(aside, fill)
-                self._rename(aside, final)
-            except BaseException:
-                aside.unlink(missing_ok=True)
-                self._prune(final.parent)
-                raise
-        return size
 
     def _rename(self, aside: Path, final: Path) -> None:
         for last in (False, False, True):

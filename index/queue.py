@@ -15,6 +15,8 @@ from index.rows import shape_row
 from index.shapes import Status
 from index.tables import JobRow
 
+__all__ = ["MAX_ATTEMPTS", "Job", "Queue"]
+
 
 class Queue:
     """The jobs of a catalogue's database.

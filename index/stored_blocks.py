@@ -31,7 +31,11 @@ class StoredBlocks:
             return _read(session, [shape_id], vocabulary_id, None)[shape_id]
 
     def block_rows(
-        self, vocabulary_id: str | None, after_revision: int = 0, names: Collection[str] | None = None
+        self,
+        vocabulary_id: str | None,
+        after_revision: int = 0,
+        names: Collection[str] | None = None,
+        but: Collection[str] = (),
     ) -> Iterator[tuple[str, Blocks]]:
         """Yield (id, blocks) of every ready shape that changed after a revision, ordered by id.
 
@@ -45,12 +49,20 @@ class StoredBlocks:
             0 for all shapes.
         names : collection of str, optional
             Only these blocks.
+        but : collection of str
+            Ids of shapes to leave out.
         """
         query = select(ShapeRow.id).where(ShapeRow.status == Status.READY, ShapeRow.revision > after_revision)
         with reading(self._engine) as session:
-            shape_ids = session.scalars(query.order_by(ShapeRow.id)).all()
+            shape_ids = [i for i in session.scalars(query.order_by(ShapeRow.id)) if i not in but]
             for start in range(0, len(shape_ids), _AT_ONCE):
                 yield from _read(session, shape_ids[start : start + _AT_ONCE], vocabulary_id, names).items()
+
+    def ready_revisions(self) -> dict[str, int]:
+        """Return the revision of every ready shape, by id."""
+        query = select(ShapeRow.id, ShapeRow.revision).where(ShapeRow.status == Status.READY)
+        with reading(self._engine) as session:
+            return {row.id: row.revision for row in session.execute(query)}
 
 
 def write_plain(session: Session, shape_id: str, blocks: Mapping[str, SingleArray]) -> None:
@@ -88,12 +100,14 @@ def _read(
 ) -> dict[str, Blocks]:
     found: dict[str, Blocks] = {shape_id: {} for shape_id in shape_ids}
     plain, words = PlainBlockRow, QuantisedBlockRow
-    queries = [select(plain.shape_id, plain.name, plain.data).where(plain.shape_id.in_(shape_ids))]
+    queries = [
+        (select(plain.shape_id, plain.name, plain.data).where(plain.shape_id.in_(shape_ids)), plain.name)
+    ]
     if vocabulary_id is not None:
         ours = (words.vocabulary_id == vocabulary_id, words.shape_id.in_(shape_ids))
-        queries.append(select(words.shape_id, words.name, words.data).where(*ours))
-    for query in queries:
-        for shape_id, name, data in session.execute(query):
-            if names is None or name in names:
-                found[shape_id][name] = decode_block(data)
+        queries.append((select(words.shape_id, words.name, words.data).where(*ours), words.name))
+    for query, column in queries:
+        wanted = query if names is None else query.where(column.in_(names))
+        for shape_id, name, data in session.execute(wanted):
+            found[shape_id][name] = decode_block(data)
     return found

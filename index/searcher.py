@@ -1,0 +1,96 @@
+"""Searcher: ranked answers that are never older than the catalogue."""
+
+from collections.abc import Collection, Mapping
+from pathlib import Path
+from threading import Lock
+
+import numpy.typing as npt
+
+from index.catalogue import Catalogue
+from index.files import FileStore
+from index.method_index import MethodIndex
+from index.methods import Method, method, with_weights
+from index.ranking import Ranked
+
+_LEFT_BEHIND = 3600.0  # seconds after which a half-written index file is nobody's
+
+
+class Searcher:
+    """Ranks the catalogue's ready shapes; each method's index is loaded when it is first asked for.
+
+    Safe to share between threads; other processes may have their own on the same folder.
+
+    Parameters
+    ----------
+    catalogue : Catalogue
+        What is searched.
+    folder : Path
+        Where indexes are kept between runs. Only a cache: it may be emptied at any time.
+    """
+
+    def __init__(self, catalogue: Catalogue, folder: Path) -> None:
+        self._catalogue = catalogue
+        self._store = FileStore(folder)
+        self._store.sweep(_LEFT_BEHIND)
+        self._indexes: dict[str, MethodIndex] = {}
+        self._opening = Lock()
+
+    def search(
+        self,
+        method_name: str,
+        query_blocks: Mapping[str, npt.ArrayLike],
+        limit: int,
+        *,
+        weights: Mapping[str, float] | None = None,
+        exclude: Collection[str] = (),
+        vocabulary_id: str | None = None,
+    ) -> Ranked:
+        """Return the nearest shapes as (id, distance), nearest first, equal distances by id.
+
+        Exactly what comparing the query with every ready shape in double precision would give. A
+        shape that lacks one of the method's blocks is left out.
+
+        Parameters
+        ----------
+        method_name : str
+            See `index.methods.METHODS`.
+        query_blocks : mapping of str to (n,) arrays
+            The method's blocks, and perhaps others.
+        limit : int
+            How many at most.
+        weights : mapping of str to float, optional
+            Own weights for some of the method's blocks. They cost an exact comparison with every shape.
+        exclude : collection of str
+            Ids that are not wanted.
+        vocabulary_id : str, optional
+            Whose words the query is in; checked against the index.
+
+        Raises
+        ------
+        UnknownMethod, MethodUnavailable, BadWeights, BadBlock
+            The question is wrong.
+        VocabularyChanged
+            Another vocabulary became active meanwhile: quantise the query again and repeat.
+        """
+        base = method(method_name)
+        asked = with_weights(base, weights or {})
+        found = self._index_of(base)
+        found.catch_up()
+        return found.rank(asked, query_blocks, limit, exclude, vocabulary_id)
+
+    def save(self) -> None:
+        """Keep every index that is loaded for the next run."""
+        with self._opening:
+            loaded = list(self._indexes.values())
+        for each in loaded:
+            each.save()
+
+    def close(self) -> None:
+        """Save, as the last thing."""
+        self.save()
+
+    def _index_of(self, base: Method) -> MethodIndex:
+        with self._opening:
+            if base.name not in self._indexes:
+                self._indexes[base.name] = MethodIndex(base, self._catalogue, self._store)
+            return self._indexes[base.name]
