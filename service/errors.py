@@ -25,7 +25,7 @@ from service.multipart import (
 from service.pool import ChildDied, PoolStopped
 from service.turnstile import TooBusy
 from service.uploads import BodyTooLarge, SlowBody
-from service.vocabularies import NoVocabulary, TooFewShapes
+from service.vocabularies import NoVocabulary
 from worker.errors import MeshError
 
 log = logging.getLogger(__name__)
@@ -61,7 +61,7 @@ TABLE: dict[type[Exception], tuple[HTTPStatus, str]] = {
     kept.CatalogueBusy: (HTTPStatus.SERVICE_UNAVAILABLE, "The catalogue is busy"),
     OperationalError: (HTTPStatus.SERVICE_UNAVAILABLE, "The catalogue cannot be reached"),
     NoVocabulary: (HTTPStatus.CONFLICT, "There is no vocabulary"),
-    TooFewShapes: (HTTPStatus.CONFLICT, "There are too few shapes"),
+    kept.BadVocabulary: (HTTPStatus.CONFLICT, "The vocabulary cannot be learnt"),
     TooBusy: (HTTPStatus.SERVICE_UNAVAILABLE, "Too many searches at once"),
     PoolStopped: (HTTPStatus.SERVICE_UNAVAILABLE, "The service is stopping"),
     ChildDied: (HTTPStatus.UNPROCESSABLE_ENTITY, "The mesh could not be described"),

@@ -80,6 +80,16 @@ class CountRequests:
         try:
             await self._app(scope, receive, note)
         finally:
-            path = getattr(scope.get("route"), "path", "unknown")
+            path = _template(scope)
             self._metrics.requests.labels(scope["method"], path, str(status)).inc()
             self._metrics.latency.labels(path).observe(time.perf_counter() - start)
+
+
+def _template(scope: Scope) -> str:
+    """Return the path with its parameters' names in place of their values."""
+    if "route" not in scope:
+        return "unknown"
+    path: str = scope["path"]
+    for name, value in scope.get("path_params", {}).items():
+        path = path.replace(str(value), f"{{{name}}}", 1)
+    return path

@@ -12,7 +12,6 @@ from python_multipart.multipart import parse_options_header
 
 from service.submissions import ReceivedFile, safe_name
 
-
 Value = TypeVar("Value")
 
 

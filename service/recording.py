@@ -3,7 +3,7 @@
 from dataclasses import asdict
 
 from index.errors import CatalogueError, LeaseLost, ShapeNotFound, VocabularyChanged
-from index.queue import Job
+from index.jobs import Job
 from index.shapes import Shape
 from service.library import Library
 from service.quantisation import quantise

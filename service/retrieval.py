@@ -2,7 +2,7 @@
 
 import time
 import uuid
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import Any
@@ -10,6 +10,7 @@ from typing import Any
 from index.errors import NotReady, VocabularyChanged
 from index.methods import DEFAULT_METHOD, method, with_weights
 from index.shapes import Shape, Status, StoredFile
+from index.vocabulary import Vocabulary
 from service.describing import Describe, describe_files
 from service.library import Library
 from service.quantisation import quantise
@@ -21,6 +22,7 @@ from worker.describe import Description, MeshFacts
 from worker.reading.upload import inspect_upload
 
 ATTEMPTS = 5  # at a query while vocabularies change
+BlocksIn = Callable[[Vocabulary], Mapping[str, SingleArray]]  # the query in the words of a vocabulary
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -103,15 +105,11 @@ def find_similar(library: Library, shape_id: str, question: Question) -> Answer:
     shape = library.catalogue.get(shape_id)
     if shape.status != Status.READY:
         raise NotReady(f"the shape is {shape.status}; only a ready one can be compared")
-    for _ in range(ATTEMPTS):
-        vocabulary = active_vocabulary(library)
-        blocks = library.catalogue.blocks(shape_id, vocabulary.id)
-        found = library.searcher.search(
-            question.method, blocks, question.limit, weights=question.weights, exclude=(shape_id,)
-        )
-        if active_vocabulary(library).id == vocabulary.id:
-            return _answer(library, question, found, start)
-    raise VocabularyChanged("vocabularies changed during the query; try again")
+
+    def blocks(vocabulary: Vocabulary) -> Mapping[str, SingleArray]:
+        return library.catalogue.blocks(shape_id, vocabulary.id)
+
+    return _answer(library, question, _rank(library, question, blocks, exclude=(shape_id,)), start)
 
 
 def search_upload(
@@ -146,16 +144,11 @@ def search_description(
     library: Library, description: Description, question: Question
 ) -> list[tuple[str, float]]:
     """Return ids and distances of the shapes nearest to a description."""
-    for _ in range(ATTEMPTS):
-        vocabulary = active_vocabulary(library)
-        blocks: dict[str, SingleArray] = {
-            **description.blocks,
-            **quantise(description.signatures, vocabulary),
-        }
-        found = library.searcher.search(question.method, blocks, question.limit, weights=question.weights)
-        if active_vocabulary(library).id == vocabulary.id:
-            return found
-    raise VocabularyChanged("vocabularies changed during the query; try again")
+
+    def blocks(vocabulary: Vocabulary) -> Mapping[str, SingleArray]:
+        return {**description.blocks, **quantise(description.signatures, vocabulary)}
+
+    return _rank(library, question, blocks)
 
 
 def change_shape(
@@ -193,6 +186,26 @@ def _store(library: Library, upload_id: str, submission: Submission) -> list[Sto
 def _delete_files(library: Library, files: Iterable[StoredFile]) -> None:
     for file in files:
         library.files.delete(file.key)
+
+
+def _rank(
+    library: Library, question: Question, blocks: BlocksIn, exclude: tuple[str, ...] = ()
+) -> list[tuple[str, float]]:
+    """Search with the active vocabulary; once more where another becomes active in this moment."""
+    for _ in range(ATTEMPTS):
+        vocabulary = active_vocabulary(library)
+        try:
+            return library.searcher.search(
+                question.method,
+                blocks(vocabulary),
+                question.limit,
+                weights=question.weights,
+                exclude=exclude,
+                vocabulary_id=vocabulary.id,
+            )
+        except VocabularyChanged:
+            continue
+    raise VocabularyChanged("vocabularies kept changing during the query; try again")
 
 
 def _answer(

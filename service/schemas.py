@@ -4,13 +4,14 @@ from datetime import datetime
 from typing import Any, Self
 
 from pydantic import BaseModel, ConfigDict, Field
+from pydantic.config import JsonDict
 
 from index.methods import Method
 from index.shapes import Page, Shape, Status, StoredFile
 from service.retrieval import Answer, Hit
 from worker.describe import MeshFacts
 
-EXAMPLE_SHAPE = {
+EXAMPLE_SHAPE: JsonDict = {
     "id": "0b9c5e7f2a1d4c3e8f6a7b8c9d0e1f2a",
     "name": "amphora",
     "status": "ready",

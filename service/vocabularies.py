@@ -21,12 +21,6 @@ class NoVocabulary(Exception):  # noqa: N818 - it reads as what is missing
     code = "no_vocabulary"
 
 
-class TooFewShapes(Exception):  # noqa: N818 - it reads as what is missing
-    """A vocabulary cannot be learnt from so few shapes."""
-
-    code = "too_few_shapes"
-
-
 def active_vocabulary(library: Library) -> Vocabulary:
     """Return the vocabulary that queries and records use now."""
     vocabulary = library.catalogue.active_vocabulary()
@@ -48,10 +42,9 @@ def learn_vocabulary(library: Library, progress: Progress = lambda *_: None) -> 
 
     Raises
     ------
-    TooFewShapes
+    BadVocabulary
+        Where the ready shapes are too few, or too alike.
     """
-    if library.catalogue.counts().get(Status.READY, 0) == 0:
-        raise TooFewShapes("no shape is ready; add shapes first")
     vocabulary = learn(_all_signatures(library), library.parameters.fingerprint())
     adopt_vocabulary(library, vocabulary, progress)
     return vocabulary
@@ -65,7 +58,7 @@ def adopt_vocabulary(library: Library, vocabulary: Vocabulary, progress: Progres
         for shape_id in library.catalogue.missing_from(vocabulary.id, BATCH):
             _quantise_shape(library, vocabulary, shape_id)
             done += 1
-            progress(done, max(done, library.catalogue.counts().get(Status.READY, 0)))
+            progress(done, max(done, library.catalogue.counts()[Status.READY]))
 
 
 def _quantise_shape(library: Library, vocabulary: Vocabulary, shape_id: str) -> None:

@@ -10,7 +10,7 @@ from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from dataclasses import dataclass
 
 from index.errors import CatalogueBusy, LeaseLost, ShapeNotFound, StorageFull
-from index.queue import Job
+from index.jobs import Job
 from service.child import ChildError
 from service.describing import Describe, describe_files
 from service.library import Library

@@ -1,0 +1,96 @@
+"""A real server in a thread, so that tests speak HTTP over sockets."""
+
+import contextlib
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import httpx
+import numpy as np
+import uvicorn
+from fakes import describe_quickly, fake_signatures
+
+from index.vocabulary import Vocabulary, learn_vocabulary
+from service.app import create_app
+from service.describing import Describe
+from service.library import Library
+from service.settings import Settings
+from worker.parameters import Parameters
+
+PATIENCE = 120.0  # seconds until a test that would hang fails instead
+
+
+def settings_for(folder: Path, **changes: Any) -> Settings:
+    """Return settings for a test: small limits, a quick worker."""
+    quick: dict[str, Any] = {
+        "data_dir": folder,
+        "port": 0,
+        "poll_seconds": 0.05,
+        "job_memory_bytes": 2 * 2**30,
+        "workers": 2,
+    }
+    return Settings(**{**quick, **changes})
+
+
+def fake_vocabulary(seed: int = 0) -> Vocabulary:
+    samples = [fake_signatures(level) for level in np.linspace(0, 1, 7)]
+    return learn_vocabulary(samples, Parameters().fingerprint(), seed=seed)
+
+
+def open_fake_library(settings: Settings) -> Library:
+    return Library.open(settings, vocabulary=fake_vocabulary())
+
+
+class Serving:
+    """A running service and a client of it."""
+
+    def __init__(self, server: uvicorn.Server, library: Library, client: httpx.Client) -> None:
+        self.server, self.library, self.client = server, library, client
+
+    def add(self, files: dict[str, bytes], wait: float = 60, **fields: str) -> httpx.Response:
+        """Upload files."""
+        parts = [("files", (name, content)) for name, content in files.items()]
+        return self.client.post("/v1/shapes", params={"wait": wait}, files=parts, data=fields)
+
+    def shape(self, shape_id: str) -> dict[str, Any]:
+        """Return a shape's JSON."""
+        found: dict[str, Any] = self.client.get(f"/v1/shapes/{shape_id}").json()
+        return found
+
+    def settled(self, shape_id: str) -> dict[str, Any]:
+        """Return a shape when it is ready or failed."""
+        wait_until(lambda: self.shape(shape_id)["status"] in ("ready", "failed"))
+        return self.shape(shape_id)
+
+
+def wait_until(condition: Callable[[], bool]) -> None:
+    """Wait; fail after a generous time."""
+    deadline = time.monotonic() + PATIENCE
+    while not condition():
+        if time.monotonic() > deadline:
+            raise TimeoutError("what was waited for did not happen")
+        time.sleep(0.02)
+
+
+@contextlib.contextmanager
+def serving(
+    settings: Settings,
+    describe: Describe = describe_quickly,
+    open_library: Callable[[Settings], Library] = open_fake_library,
+) -> Iterator[Serving]:
+    """Run the service; stop it cleanly at the end."""
+    app = create_app(settings, open_library=open_library, describe=describe)
+    config = uvicorn.Config(app, port=0, log_config=None, timeout_graceful_shutdown=5)
+    server = uvicorn.Server(config)
+    thread = threading.Thread(target=server.run)
+    thread.start()
+    try:
+        wait_until(lambda: server.started or not thread.is_alive())
+        port = server.servers[0].sockets[0].getsockname()[1]
+        with httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=PATIENCE) as client:
+            yield Serving(server, app.state.services.library, client)
+    finally:
+        server.should_exit = True
+        thread.join()
