@@ -69,9 +69,7 @@ def make_creature(
     """
     skin = Skin(KINDS[kind].body(proportions or Proportions()))
     lower, upper = skin.bounds
-    rest, quads = polygonise(
-        skin, lower, upper, n_vertices=n_vertices, offset=offset, steepness=skin.steepness
-    )
+    rest, quads = polygonise(skin, lower, upper, n_vertices=n_vertices, offset=offset)
     vertices = move(skin.body, pose or {}, rest, skin.weights(rest))
     return Shell(vertices=vertices, rest=rest, faces=triangles(rest, quads), paint=partial(paint, skin, coat))
 

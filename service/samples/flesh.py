@@ -5,9 +5,10 @@ from functools import cached_property
 import numpy as np
 
 from service.samples.skeleton import Body
-from worker.arrays import FloatArray, IntArray
+from worker.arrays import BoolArray, FloatArray, IntArray
 
-CHUNK = 20_000  # points at a time, so that the (points, cones) arrays stay in the cache
+CHUNK = 4_000  # points at a time, so that the (points, cones) arrays stay in the cache
+MELTED = 2.0  # blends by which the skin is outside its cones, where up to seven meet: log 7
 
 
 class Skin:
@@ -33,16 +34,25 @@ class Skin:
         For the nearest point q = a + s b of a cone's axis: √(|x − q|² + (f² − 1)⟨x − q, u⟩²) − r(s),
         with f the flatness along u.
         """
-        along = points @ self.steps.T - (self.starts * self.steps).sum(1)  # ⟨x − a, b⟩, (n, p)
+        along = points @ self.steps.T  # ⟨x − a, b⟩, (n, p)
+        along -= (self.starts * self.steps).sum(1)
         share = np.clip(along / self.lengths, 0.0, 1.0)
-        squares = (points**2).sum(1)[:, None] - 2 * points @ self.starts.T + (self.starts**2).sum(1)
-        squares = squares - 2 * share * along + share**2 * self.lengths
-        across = (
-            points @ self.axes.T - (self.starts * self.axes).sum(1) - share * (self.steps * self.axes).sum(1)
-        )
-        squares = np.maximum(squares + (self.flatness**2 - 1) * across**2, 0.0)
-        radii = self.radii[:, 0] + share * (self.radii[:, 1] - self.radii[:, 0])
-        result: FloatArray = np.sqrt(squares) - radii
+        squares = points @ (-2 * self.starts.T)
+        squares += (points**2).sum(1)[:, None]
+        squares += (self.starts**2).sum(1)
+        squares += share * (share * self.lengths - 2 * along)
+        flat = np.flatnonzero(self.flatness > 1)
+        if len(flat):
+            squares[:, flat] += self._flattening(points, share[:, flat], flat)
+        distances: FloatArray = np.sqrt(np.maximum(squares, 0.0, out=squares), out=squares)
+        distances -= self.radii[:, 0] + share * (self.radii[:, 1] - self.radii[:, 0])
+        return distances
+
+    def _flattening(self, points: FloatArray, share: FloatArray, flat: IntArray) -> FloatArray:
+        """Return (f² − 1)⟨x − q, u⟩², (n, f), for the cones that are flat."""
+        axes, starts, steps = self.axes[flat], self.starts[flat], self.steps[flat]
+        across = points @ axes.T - (starts * axes).sum(1) - share * (steps * axes).sum(1)
+        result: FloatArray = (self.flatness[flat] ** 2 - 1) * across**2
         return result
 
     def __call__(self, points: FloatArray) -> FloatArray:
@@ -82,8 +92,11 @@ class Skin:
             0
         )
 
-    @cached_property
-    def steepness(self) -> float:
-        """A bound on the length of the field's gradient."""
-        tapers = np.abs(np.diff(self.radii, axis=1)[:, 0]) / np.sqrt(self.lengths)
-        return float(self.flatness.max() + np.minimum(tapers, 1.0).max())
+    def near(self, points: FloatArray, radius: float) -> BoolArray:
+        """Say for each point (n,) whether the skin may pass within ``radius`` of it."""
+        tapers = np.diff(self.radii, axis=1)[:, 0] / np.sqrt(self.lengths)
+        slopes = np.hypot(self.flatness, np.minimum(np.abs(tapers), 1.0))  # how fast distances grow at most
+        distances = self.distances(points)
+        outside = ((distances - MELTED * self.body.blend) / slopes).min(1) > radius
+        inside = (distances / slopes).min(1) < -radius
+        return np.asarray(~(outside | inside))

@@ -48,7 +48,7 @@ def _point(values: np.ndarray[tuple[int], np.dtype[np.float64]]) -> Point:
 def _skinned(builder: BodyBuilder, generator: np.random.Generator) -> Shell:
     skin = Skin(builder.build(0.03))
     lower, upper = skin.bounds
-    vertices, quads = polygonise(skin, lower, upper, n_vertices=5000, steepness=skin.steepness)
+    vertices, quads = polygonise(skin, lower, upper, n_vertices=5000)
     return Shell(
         vertices=vertices,
         rest=vertices,

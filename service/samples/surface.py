@@ -3,13 +3,23 @@
 S. Gibson, *Constrained elastic surface nets* (1998), without the elastic part.
 """
 
-from collections.abc import Callable
+from typing import Protocol
 
 import numpy as np
 
+from service.samples.settling import settle
 from worker.arrays import BoolArray, FloatArray, IntArray
 
-Field = Callable[[FloatArray], FloatArray]  # (n, 3) points → (n,) values, negative inside
+
+class Field(Protocol):
+    """A closed shape, given by a number at every point."""
+
+    def __call__(self, points: FloatArray) -> FloatArray:
+        """Return values (n,) at points (n, 3), negative inside."""
+
+    def near(self, points: FloatArray, radius: float) -> BoolArray:
+        """Say for each point (n,) whether the zero level may pass within ``radius`` of it."""
+
 
 CORNERS = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)])  # (8, 3)
 EDGES = np.array([(i, j) for i in range(8) for j in range(i) if np.abs(CORNERS[i] - CORNERS[j]).sum() == 1])
@@ -77,9 +87,7 @@ def _quads_across(inside: BoolArray, numbers: IntArray, axis: int) -> IntArray:
     return np.where(leaving[:, None], quads, quads[:, ::-1])
 
 
-def sample_grid(
-    field: Field, origin: FloatArray, shape: IntArray, spacing: float, steepness: float
-) -> FloatArray:
+def sample_grid(field: Field, origin: FloatArray, shape: IntArray, spacing: float) -> FloatArray:
     """Evaluate a field on a grid, exactly only near its zero level.
 
     Parameters
@@ -87,8 +95,6 @@ def sample_grid(
     origin : (3,)
     shape : (3,)
         Points along each axis, a multiple of the block size.
-    steepness : float
-        Bound on the length of the field's gradient.
 
     Returns
     -------
@@ -97,9 +103,10 @@ def sample_grid(
     """
     blocks = np.stack(np.meshgrid(*(np.arange(n // BLOCK) for n in shape), indexing="ij"), -1)
     centres = origin + spacing * (blocks * BLOCK + (BLOCK - 1) / 2)  # (·, ·, ·, 3)
+    radius = float(spacing * np.sqrt(3) * (BLOCK + 1) / 2)
     coarse = field(centres.reshape(-1, 3)).reshape(blocks.shape[:3])
     values = coarse.repeat(BLOCK, 0).repeat(BLOCK, 1).repeat(BLOCK, 2)
-    near = blocks[np.abs(coarse) <= steepness * spacing * np.sqrt(3) * (BLOCK + 1) / 2]  # (b, 3)
+    near = blocks[field.near(centres.reshape(-1, 3), radius).reshape(blocks.shape[:3])]  # (b, 3)
     steps = np.stack(np.meshgrid(*[np.arange(BLOCK)] * 3, indexing="ij"), -1).reshape(-1, 3)
     places = (near[:, None] * BLOCK + steps).reshape(-1, 3)
     values[tuple(places.T)] = field(origin + spacing * places)
@@ -113,7 +120,6 @@ def polygonise(
     *,
     n_vertices: int,
     offset: float = 0.0,
-    steepness: float = 1.0,
 ) -> tuple[FloatArray, IntArray]:
     """Make a smooth closed mesh of about ``n_vertices`` from a field.
 
@@ -129,20 +135,20 @@ def polygonise(
     vertices : (n, 3)
     quads : (m, 4)
     """
-    coarse = float(np.max(upper - lower)) / 36
-    found = len(_polygonise_at(field, lower, upper, coarse, 0.0, steepness)[0])
+    coarse = float(np.max(upper - lower)) / 28
+    found = len(_polygonise_at(field, lower, upper, coarse, 0.0)[0])
     spacing = coarse * np.sqrt(found / n_vertices)
-    vertices, quads = _polygonise_at(field, lower, upper, spacing, offset, steepness)
+    vertices, quads = _polygonise_at(field, lower, upper, spacing, offset)
     return relax(field, vertices, quads, spacing), quads
 
 
 def _polygonise_at(
-    field: Field, lower: FloatArray, upper: FloatArray, spacing: float, offset: float, steepness: float
+    field: Field, lower: FloatArray, upper: FloatArray, spacing: float, offset: float
 ) -> tuple[FloatArray, IntArray]:
     origin = lower - (2 + offset) * spacing
     points = np.ceil((upper - origin) / spacing + 3)
     shape = (np.ceil(points / BLOCK) * BLOCK).astype(int)
-    return surface_nets(sample_grid(field, origin, shape, spacing, steepness), origin, spacing)
+    return surface_nets(settle(sample_grid(field, origin, shape, spacing)), origin, spacing)
 
 
 def relax(field: Field, vertices: FloatArray, quads: IntArray, spacing: float) -> FloatArray:
@@ -160,15 +166,16 @@ def relax(field: Field, vertices: FloatArray, quads: IntArray, spacing: float) -
 
 def onto_surface(field: Field, points: FloatArray, spacing: float) -> FloatArray:
     """Move points to the zero level by one Newton step, at most one ``spacing`` far."""
-    slopes = gradient(field, points, spacing / 50)
+    values, slopes = _values_and_slopes(field, points, spacing / 50)
     lengths = np.maximum((slopes**2).sum(1), 1e-12)
-    moves = slopes * (field(points) / lengths)[:, None]  # (n, 3)
+    moves = slopes * (values / lengths)[:, None]  # (n, 3)
     far = np.linalg.norm(moves, axis=1, keepdims=True)
     moved: FloatArray = points - moves * np.minimum(1.0, spacing / np.maximum(far, 1e-12))
     return moved
 
 
-def gradient(field: Field, points: FloatArray, step: float) -> FloatArray:
-    """Return the field's central differences, (n, 3), at ``points``."""
-    steps = step * np.eye(3)
-    return np.stack([field(points + s) - field(points - s) for s in steps], 1) / (2 * step)
+def _values_and_slopes(field: Field, points: FloatArray, step: float) -> tuple[FloatArray, FloatArray]:
+    """Return the field (n,) and its forward differences (n, 3)."""
+    values = field(points)
+    slopes = [field(points + shift) - values for shift in step * np.eye(3)]
+    return values, np.stack(slopes, axis=1) / step
