@@ -8,8 +8,15 @@ from worker.arrays import BoolArray, IntArray
 
 
 def face_edges(faces: IntArray) -> IntArray:
-    """Return the directed edges of faces (m, 3): (3m, 2), the first edge of all, then the second, the third."""
+    """Return the directed edges of faces (m, 3): first edges, then second, then third ones, (3m, 2)."""
     return np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+
+
+def undirected(edges: IntArray) -> IntArray:
+    """Return one number for each edge (k, 2), the same in both directions: (k,)."""
+    most = int(edges.max(initial=0)) + 1
+    numbers: IntArray = edges.min(axis=1) * most + edges.max(axis=1)
+    return numbers
 
 
 def flipped_faces(faces: IntArray) -> tuple[BoolArray, bool]:
@@ -51,12 +58,9 @@ def _neighbours(faces: IntArray) -> tuple[IntArray, IntArray, BoolArray]:
     edges = face_edges(faces)
     owners = np.tile(np.arange(len(faces)), 3)
     ascending = edges[:, 0] < edges[:, 1]
-    keys = np.sort(edges, axis=1)
-    order = np.lexsort(keys.T)
-    keys = keys[order]
-    fresh = np.ones(len(keys) + 1, dtype=np.bool_)
-    fresh[1:-1] = (keys[1:] != keys[:-1]).any(axis=1)
-    starts = np.flatnonzero(fresh)
+    keys = undirected(edges)
+    order = np.argsort(keys, kind="stable")
+    starts = np.flatnonzero(np.diff(keys[order], prepend=-1, append=-1))
     pairs = starts[:-1][np.diff(starts) == 2]  # first of two equal edges
     one, two = order[pairs], order[pairs + 1]
     return owners[one], owners[two], ascending[one] != ascending[two]

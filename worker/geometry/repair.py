@@ -8,7 +8,7 @@ from scipy.sparse.csgraph import connected_components
 
 from worker.arrays import BoolArray, FloatArray, IntArray
 from worker.errors import Code, MeshError
-from worker.geometry.orientation import face_edges, flipped_faces
+from worker.geometry.orientation import face_edges, flipped_faces, undirected
 from worker.reading.mesh import Mesh
 
 LARGEST = 1e100  # coordinates beyond this overflow when multiplied
@@ -50,10 +50,9 @@ def repair(mesh: Mesh) -> Repaired:
     flipped, orientable = flipped_faces(faces)
     corners = np.tile(np.arange(3), (len(faces), 1))
     corners[flipped] = [0, 2, 1]
-    used, faces = np.unique(np.take_along_axis(faces, corners, axis=1), return_inverse=True)
-    faces = faces.reshape(-1, 3)
+    used, faces = _renumbered(np.take_along_axis(faces, corners, axis=1), len(vertices))
     components = count_components(faces, used.size)
-    warnings += _loose(mesh, welded, used) + _described(faces, flipped, orientable, components)
+    warnings += _loose(welded, used) + _described(faces, flipped, orientable, components)
     return Repaired(
         vertices=vertices[used],
         faces=faces,
@@ -124,10 +123,18 @@ def count_components(faces: IntArray, n_vertices: int) -> int:
     """Count connected pieces of a mesh whose vertices are all used."""
     edges = face_edges(faces)
     graph = coo_array((np.ones(len(edges), dtype=np.int8), edges.T), shape=(n_vertices, n_vertices))
-    return int(connected_components(graph, directed=False, return_labels=False))
+    n_components, _ = connected_components(graph, directed=False)
+    return int(n_components)
 
 
-def _loose(mesh: Mesh, welded: IntArray, used: IntArray) -> list[str]:
+def _renumbered(faces: IntArray, n_vertices: int) -> tuple[IntArray, IntArray]:
+    """Return the vertices in use, ascending, and the faces that number them anew."""
+    named = np.zeros(n_vertices, dtype=np.bool_)
+    named[faces] = True
+    return np.flatnonzero(named), (np.cumsum(named) - 1)[faces]
+
+
+def _loose(welded: IntArray, used: IntArray) -> list[str]:
     distinct = welded == np.arange(welded.size)
     named = np.zeros(welded.size, dtype=np.bool_)
     named[used] = True
@@ -138,7 +145,8 @@ def _loose(mesh: Mesh, welded: IntArray, used: IntArray) -> list[str]:
 
 
 def _described(faces: IntArray, flipped: BoolArray, orientable: bool, components: int) -> list[str]:
-    _, uses = np.unique(np.sort(face_edges(faces), axis=1), axis=0, return_counts=True)
+    edges = np.sort(undirected(face_edges(faces)))
+    uses = np.diff(np.flatnonzero(np.diff(edges, prepend=-1, append=-1)))
     return [
         *_counted(int(flipped.sum()), "faces were turned to face as their neighbours do"),
         *([] if orientable else ["the surface has only one side, like a Möbius strip"]),

@@ -87,7 +87,7 @@ def _entries(archive: zipfile.ZipFile, limits: Limits) -> Iterator[tuple[str, zi
     found: dict[str, zipfile.ZipInfo] = {}
     for entry in archive.infolist():
         name = _checked_name(entry)
-        if entry.is_dir() or _is_hidden(name):
+        if entry.is_dir() or is_hidden(name):
             continue
         _check_entry(entry, name)
         if name in found:
@@ -118,8 +118,8 @@ def _check_entry(entry: zipfile.ZipInfo, name: str) -> None:
         )
 
 
-def _is_hidden(name: str) -> bool:
-    """Return whether a file is one that systems add by themselves."""
+def is_hidden(name: str) -> bool:
+    """Return whether a file is one that systems add by themselves, such as ``__MACOSX/._mesh.obj``."""
     parts = name.split("/")
     return (
         parts[0] == "__MACOSX"

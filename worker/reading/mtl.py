@@ -23,7 +23,7 @@ _OPTIONS = {
     "-texres": 1,
     "-type": 1,
 }
-_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$")
+_NUMBER = re.compile(r"(?=.{1,40}$)[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$")
 _OPTIONAL = {"-mm", "-o", "-s", "-t"}  # their second and third number may be left out
 
 
@@ -109,9 +109,11 @@ def read_map(rest: str, name: str) -> TextureMap | None:
     options: dict[str, list[str]] = {}
     words = list(re.finditer(r"\S+", rest))
     first = _take_options(words, options)
-    file = rest[words[first].start() :].strip() if first < len(words) else ""
-    file = re.split(r"\s+(?=-(?:bm|s|o|t|mm|clamp|blendu|blendv|texres|boost|cc|imfchan)\s)", file)[0]
-    file = file.strip('"')
+    last = next(
+        (place for place in range(first + 1, len(words)) if words[place].group().lower() in _OPTIONS),
+        len(words),
+    )
+    file = rest[words[first].start() : words[last - 1].end()].strip('"') if first < last else ""
     if not file:
         return None
     return TextureMap(

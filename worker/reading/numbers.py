@@ -1,15 +1,25 @@
 """Words become numbers: all at once where they are plain, one by one where something is odd."""
 
+import re
+
 import numpy as np
 
 from worker.arrays import BoolArray, ByteArray, FloatArray, IntArray
 from worker.errors import Code, MeshError
 from worker.reading.words import Words
 
-_DIGITS = 18  # longest whole number that is read: more could overflow 64 bits
+_WHOLE = re.compile(r"[-+]?[0-9]{1,18}")  # longer ones could overflow 64 bits
+_REAL = re.compile(r"[-+]?([0-9.]+([eE][-+]?[0-9]+)?|nan|inf(inity)?|1\.#\w+)", re.IGNORECASE | re.ASCII)
 
-_PLAIN = np.zeros(256, dtype=np.bool_)
-_PLAIN[list(b"0123456789+-.eE \n")] = True
+
+def _table(characters: bytes) -> BoolArray:
+    table = np.zeros(256, dtype=np.bool_)
+    table[list(characters)] = True
+    return table
+
+
+_PLAIN_WHOLE = _table(b"0123456789+- ")
+_PLAIN_REAL = _table(b"0123456789+-.eE ")
 
 
 def parse_floats(words: Words) -> FloatArray:
@@ -30,46 +40,17 @@ def parse_floats(words: Words) -> FloatArray:
     MeshError
         BAD_NUMBER, naming the word and its line.
     """
-    if not words.starts.size:
-        return np.zeros(0)
-    kept = _only(words)
-    if _PLAIN[kept].all():
+    text = _plain_text(words, _PLAIN_REAL)
+    if text is not None:
         try:
-            values: FloatArray = np.fromstring(kept.tobytes().decode("ascii"), dtype=np.float64, sep=" ")
+            values: FloatArray = np.fromstring(text, dtype=np.float64, sep=" ")
         except ValueError:
-            values = np.zeros(0)
+            values = np.zeros(0)  # the slow way names the word
         if values.size == words.starts.size:
             return values
-    return np.array([_parse_float(words, position) for position in range(words.starts.size)])
-
-
-def _only(words: Words) -> ByteArray:
-    """Return the text around the words with everything else blank."""
-    first, last = int(words.starts[0]), int(words.ends[-1])
-    steps = np.zeros(last - first + 1, dtype=np.int8)
-    steps[words.starts - first] = 1
-    steps[words.ends - first] -= 1
-    inside = np.cumsum(steps[:-1], dtype=np.int8).astype(np.bool_)
-    kept: ByteArray = np.where(inside, words.text[first:last], np.uint8(ord(" ")))
-    return kept
-
-
-def _parse_float(words: Words, position: int) -> float:
-    word = words.word(position)
-    if "#" in word[1:]:  # 1.#INF, -1.#IND, 1.#QNAN
-        return float("nan")
-    try:
-        if "_" in word or not word.isascii():
-            raise ValueError
-        return float(word)
-    except ValueError:
-        raise bad_number(word, int(words.lines[position]), "a number") from None
-
-
-def bad_number(word: str, line: int, expected: str) -> MeshError:
-    """Return the refusal of one word."""
-    shown = word if len(word) <= 40 else word[:40] + "…"
-    return MeshError(Code.BAD_NUMBER, f"Line {line}: expected {expected}, found “{shown}”.")
+    return np.array(
+        [_parse_float(words, position) for position in range(words.starts.size)], dtype=np.float64
+    )
 
 
 def parse_integers(words: Words) -> IntArray:
@@ -78,7 +59,7 @@ def parse_integers(words: Words) -> IntArray:
     Parameters
     ----------
     words : Words
-        k words; those whose end is their start are empty.
+        k words; those that end where they start are empty.
 
     Returns
     -------
@@ -90,23 +71,63 @@ def parse_integers(words: Words) -> IntArray:
     MeshError
         BAD_NUMBER, naming the word and its line.
     """
-    first = words.text[np.minimum(words.starts, words.text.size - 1)] if words.text.size else words.text
-    filled = words.ends > words.starts
-    negative = filled & (first == ord("-"))
-    starts = words.starts + (negative | (filled & (first == ord("+"))))
-    lengths = words.ends - starts
-    bad = (filled & (lengths < 1)) | (lengths > _DIGITS)
-    values = np.zeros(starts.size, dtype=np.int64)
-    for place in range(min(int(lengths.max(initial=0)), _DIGITS)):
-        rows = np.flatnonzero(lengths > place)
-        digits = words.text[starts[rows] + place] - np.uint8(ord("0"))  # wraps below "0" to over 9
-        bad[rows] |= digits > 9
-        values[rows] = values[rows] * 10 + digits
-    _refuse_first(words, bad)
-    return np.where(negative, -values, values)
+    filled = np.flatnonzero(words.ends > words.starts)
+    values = np.zeros(words.starts.size, dtype=np.int64)
+    values[filled] = _parse_whole(words[filled])
+    return values
 
 
-def _refuse_first(words: Words, bad: BoolArray) -> None:
-    if bad.any():
-        position = int(np.argmax(bad))
-        raise bad_number(words.word(position), int(words.lines[position]), "a whole number")
+def _parse_whole(words: Words) -> IntArray:
+    text = _plain_text(words, _PLAIN_WHOLE)
+    if text is not None and (words.ends - words.starts).max() <= 18:
+        try:
+            values: IntArray = np.fromstring(text, dtype=np.int64, sep=" ")
+        except ValueError:
+            values = np.zeros(0, dtype=np.int64)  # the slow way names the word
+        if values.size == words.starts.size:
+            return values
+    return np.array(
+        [_parse_integer(words, position) for position in range(words.starts.size)], dtype=np.int64
+    )
+
+
+def _plain_text(words: Words, plain: BoolArray) -> str | None:
+    """Return the words with blanks between them, or None where they hold other characters than plain ones."""
+    if not words.starts.size:
+        return None
+    kept = _only(words)
+    return kept.tobytes().decode("ascii") if plain[kept].all() else None
+
+
+def _only(words: Words) -> ByteArray:
+    """Return the text around the words with everything else blank."""
+    first, last = int(words.starts[0]), int(words.ends[-1])
+    steps = np.zeros(last - first + 1, dtype=np.int8)
+    steps[words.starts - first] = 1
+    steps[words.ends - first] -= 1
+    inside = np.cumsum(steps[:-1], dtype=np.int8).view(np.bool_)
+    kept: ByteArray = np.where(inside, words.text[first:last], np.uint8(ord(" ")))
+    return kept
+
+
+def _parse_float(words: Words, position: int) -> float:
+    word = words.word(position)
+    if _REAL.fullmatch(word) is None:
+        raise _bad_number(words, position, "a number")
+    try:
+        return float("nan") if "#" in word else float(word)  # 1.#IND and 1.#INF are written by old programs
+    except ValueError:
+        raise _bad_number(words, position, "a number") from None
+
+
+def _parse_integer(words: Words, position: int) -> int:
+    word = words.word(position)
+    if _WHOLE.fullmatch(word) is None:
+        raise _bad_number(words, position, "a whole number")
+    return int(word)
+
+
+def _bad_number(words: Words, position: int, expected: str) -> MeshError:
+    word = words.word(position)
+    shown = word if len(word) <= 40 else word[:40] + "…"
+    return MeshError(Code.BAD_NUMBER, f"Line {words.lines[position]}: expected {expected}, found “{shown}”.")

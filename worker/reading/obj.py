@@ -1,6 +1,6 @@
 """OBJ files with their materials."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,6 +9,7 @@ from worker.arrays import BoolArray, FloatArray, IntArray
 from worker.errors import Code, MeshError
 from worker.reading.obj_lines import Block, is_obj, read_block
 from worker.reading.obj_materials import find_materials
+from worker.reading.references import SentFiles
 from worker.reading.surface import Material, Surface, check_finite, check_indices
 from worker.reading.words import blocks, with_line_feeds
 
@@ -26,7 +27,7 @@ class _Faces:
     dropped: int  # faces with fewer than three corners
 
 
-def read_obj(data: bytes, name: str, files: Mapping[str, bytes], *, allow_untextured: bool) -> Surface:
+def read_obj(data: bytes, name: str, files: SentFiles, *, allow_untextured: bool) -> Surface:
     """Read an OBJ file.
 
     Parameters
@@ -35,7 +36,7 @@ def read_obj(data: bytes, name: str, files: Mapping[str, bytes], *, allow_untext
         The file.
     name : str
         Its path in the upload.
-    files : Mapping[str, bytes]
+    files : SentFiles
         The upload, in which materials are looked up.
     allow_untextured : bool
         Go on without materials that were not sent.
@@ -113,6 +114,8 @@ def _join_faces(read: Sequence[Block], n_vertices: int, n_uvs: int) -> _Faces:
     corner_kept = np.repeat(kept, counts)
     vertices, uvs, has_uv = _resolved_corners(read)
     check_indices(vertices, n_vertices)
+    if not n_uvs:  # some programs number texture coordinates that they do not write
+        has_uv = np.zeros_like(has_uv)
     check_indices(uvs[has_uv], n_uvs, "texture coordinate")
     materials, names = _materials(read)
     with_uv = np.add.reduceat(has_uv[corner_kept], np.cumsum(counts[kept]) - counts[kept], dtype=np.int64)

@@ -58,17 +58,17 @@ def read_block(text: bytes, first_line: int) -> Block:
     """
     lines = _split_lines(text, first_line)
     vertex, uv, face = lines.of(b"v"), lines.of(b"vt"), lines.of(b"f")
-    vertices = _rows(lines, vertex, least=3, most=6)
+    vertices = _rows(lines, vertex, least=3, most=6, absent=np.nan)
     faces = np.flatnonzero(face)
     material_lines = np.flatnonzero(lines.of(b"usemtl"))
     words = lines.words
     return Block(
         positions=vertices[:, :3],
         colours=vertices[:, 3:],
-        uvs=np.nan_to_num(_rows(lines, uv, least=1, most=2), nan=0.0),
+        uvs=_rows(lines, uv, least=1, most=2, absent=0.0),
         corners=read_corners(words[lines.argument & face[lines.line_of]], words.lines[lines.firsts[faces]]),
-        vertices_before=np.cumsum(vertex)[faces],
-        uvs_before=np.cumsum(uv)[faces],
+        vertices_before=np.cumsum(vertex, dtype=np.int64)[faces],
+        uvs_before=np.cumsum(uv, dtype=np.int64)[faces],
         materials=_rests(lines, material_lines),
         material_of=np.searchsorted(material_lines, faces) - 1,
         libraries=_rests(lines, np.flatnonzero(lines.of(b"mtllib"))),
@@ -112,8 +112,8 @@ def _kinds(words: Words, firsts: IntArray) -> tuple[IntArray, dict[bytes, int]]:
     return kinds, {key.tobytes().rstrip(b"\0"): number for number, key in enumerate(found)}
 
 
-def _rows(lines: _Lines, chosen: BoolArray, *, least: int, most: int) -> FloatArray:
-    """Return the numbers of the chosen lines (l,), NaN where a line has fewer: (n, most)."""
+def _rows(lines: _Lines, chosen: BoolArray, *, least: int, most: int, absent: float) -> FloatArray:
+    """Return the numbers of the chosen lines (l,), `absent` where a line has fewer: (n, most)."""
     rows = np.flatnonzero(chosen)
     picked = np.flatnonzero(lines.argument & chosen[lines.line_of])
     counts = np.bincount(lines.line_of[picked], minlength=chosen.size)[rows]  # (n,)
@@ -122,7 +122,7 @@ def _rows(lines: _Lines, chosen: BoolArray, *, least: int, most: int) -> FloatAr
         raise MeshError(Code.BAD_DATA, f"Line {line}: expected at least {least} numbers, found fewer.")
     values = parse_floats(lines.words[picked])
     starts = np.cumsum(counts) - counts
-    table = np.full((rows.size, most), np.nan)
+    table = np.full((rows.size, most), absent)
     for place in range(most):
         # Four or five numbers are a point and its weight: only with six does a colour follow.
         filled = np.flatnonzero(counts > place if place < 3 else counts >= most)

@@ -1,21 +1,16 @@
 """The materials that an OBJ file names, found in the upload."""
 
 import re
-from collections.abc import Iterable, Mapping, Set
+from collections.abc import Iterable, Set
 
 from worker.errors import Code, MeshError
 from worker.reading.mtl import read_mtl
-from worker.reading.references import find_file
-from worker.reading.surface import Material
+from worker.reading.references import SentFiles
+from worker.reading.surface import Material, among
 
 
 def find_materials(
-    libraries: Iterable[str],
-    used: Set[str],
-    named_by: str,
-    files: Mapping[str, bytes],
-    *,
-    allow_untextured: bool,
+    libraries: Iterable[str], used: Set[str], named_by: str, files: SentFiles, *, allow_untextured: bool
 ) -> tuple[dict[str, Material], list[str]]:
     """Read the material files that an OBJ file names.
 
@@ -29,7 +24,7 @@ def find_materials(
         Materials of faces.
     named_by : str
         Path of the OBJ file.
-    files : Mapping[str, bytes]
+    files : SentFiles
         The upload.
     allow_untextured : bool
         Go on without files that were not sent.
@@ -37,6 +32,7 @@ def find_materials(
     Returns
     -------
     materials : dict[str, Material]
+        By name; where two files define one, the first named counts.
     warnings : list[str]
 
     Raises
@@ -44,15 +40,11 @@ def find_materials(
     MeshError
         MISSING_TEXTURE, UNSAFE_REFERENCE, and those of `read_mtl`.
     """
+    found, missing = _find_libraries(libraries, named_by, files, allow_untextured)
     materials: dict[str, Material] = {}
-    missing: list[str] = []
-    for library in dict.fromkeys(libraries):
-        for reference in library_names(library, named_by, files):
-            found = _find(reference, named_by, files, allow_untextured)
-            if found is None:
-                missing.append(reference)
-            else:
-                materials = {**read_mtl(files[found], found), **materials}
+    for library in found:
+        for name, material in read_mtl(files[library], library).items():
+            materials.setdefault(name, material)
     undefined = used - materials.keys()
     if undefined and missing and not allow_untextured:
         raise MeshError(
@@ -60,21 +52,37 @@ def find_materials(
             f"“{named_by}” names the material file “{missing[0]}”, which was not sent; "
             "send it with the mesh, or allow the mesh without its texture.",
         )
-    return materials, _warnings(missing, undefined - {""})
+    return materials, [
+        *among(missing, "material files were not sent"),
+        *among(sorted(undefined - {""}), "materials are not defined in what was sent"),
+    ]
 
 
-def _warnings(missing: list[str], undefined: Set[str]) -> list[str]:
-    warnings = [f"the material file “{reference}” was not sent" for reference in missing]
-    if undefined:
-        shown = ", ".join(f"“{name}”" for name in sorted(undefined)[:3])
-        warnings.append(f"{len(undefined)} materials are not defined, among them {shown}")
-    return warnings
+def _find_libraries(
+    libraries: Iterable[str], named_by: str, files: SentFiles, allow_untextured: bool
+) -> tuple[list[str], list[str]]:
+    """Return the material files that were sent, by path, and those that were not, as written."""
+    found: dict[str, None] = {}
+    missing: dict[str, None] = {}
+    for library in libraries:
+        for reference in library_names(library, named_by, files):
+            try:
+                path = files.find(reference, named_by)
+            except MeshError:
+                if not allow_untextured:
+                    raise
+                path = None
+            if path is None:
+                missing[reference] = None
+            else:
+                found[path] = None
+    return list(found), list(missing)
 
 
-def library_names(rest: str, named_by: str, files: Mapping[str, bytes]) -> list[str]:
-    """Return the file names after mtllib: one that may hold blanks, or several.
+def library_names(rest: str, named_by: str, files: SentFiles) -> list[str]:
+    r"""Return the file names after mtllib: one that may hold blanks, or several.
 
-    Blanks within a name may be written with a backslash before them.
+    Blanks within a name may be written ``\ ``.
     """
     whole = rest.replace("\\ ", " ").strip().strip('"')
     if not whole or _is_sent(whole, named_by, files):
@@ -82,17 +90,8 @@ def library_names(rest: str, named_by: str, files: Mapping[str, bytes]) -> list[
     return re.split(r"(?<=\.mtl)\s+", whole, flags=re.IGNORECASE)
 
 
-def _is_sent(reference: str, named_by: str, files: Mapping[str, bytes]) -> bool:
+def _is_sent(reference: str, named_by: str, files: SentFiles) -> bool:
     try:
-        return find_file(files, reference, named_by) is not None
+        return files.find(reference, named_by) is not None
     except MeshError:
         return False
-
-
-def _find(reference: str, named_by: str, files: Mapping[str, bytes], allow_untextured: bool) -> str | None:
-    try:
-        return find_file(files, reference, named_by)
-    except MeshError:
-        if allow_untextured:
-            return None
-        raise

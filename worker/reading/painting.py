@@ -1,6 +1,5 @@
 """A surface and the files sent with it become a mesh: polygons split, textures opened, colours laid."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,8 +9,8 @@ from worker.errors import Code, MeshError
 from worker.reading.limits import Limits
 from worker.reading.mesh import Colour, Mesh
 from worker.reading.polygons import triangulate
-from worker.reading.references import find_file
-from worker.reading.surface import Material, Surface, TextureMap
+from worker.reading.references import SentFiles
+from worker.reading.surface import Material, Surface, TextureMap, among
 from worker.reading.textures import read_image
 
 NO_COLOUR = 0.5  # the grey of faces that have no colour
@@ -26,7 +25,7 @@ class _Textures:
     warnings: tuple[str, ...]
 
 
-def paint(surface: Surface, files: Mapping[str, bytes], *, allow_untextured: bool, limits: Limits) -> Mesh:
+def paint(surface: Surface, files: SentFiles, *, allow_untextured: bool, limits: Limits) -> Mesh:
     """Split the polygons and give every triangle the richest colour that the file has for it.
 
     An image comes before vertex colours, these before face colours, these before the colour of a material.
@@ -76,23 +75,22 @@ def needed_maps(surface: Surface) -> dict[int, TextureMap]:
     return {material: texture for material, texture in found.items() if texture is not None}
 
 
-def _open_textures(
-    surface: Surface, files: Mapping[str, bytes], allow_untextured: bool, limits: Limits
-) -> _Textures:
+def _open_textures(surface: Surface, files: SentFiles, allow_untextured: bool, limits: Limits) -> _Textures:
     places: dict[str, int] = {}  # each image is opened once, however many materials name it
     of_material = np.full(len(surface.materials), -1, dtype=np.int64)
-    warnings = []
+    missing: dict[str, None] = {}
     for material, texture in needed_maps(surface).items():
         name = find_texture(texture, files, allow_untextured)
         if name is None:
-            warnings.append(f"the image “{texture.reference}” was not sent; its faces have no texture")
+            missing[texture.reference] = None
         else:
             of_material[material] = places.setdefault(name, len(places))
     images = tuple(read_image(files[name], name, limits) for name in places)
-    return _Textures(images=images, of_material=of_material, warnings=tuple(dict.fromkeys(warnings)))
+    warnings = tuple(among(list(missing), "images were not sent; their faces have no texture"))
+    return _Textures(images=images, of_material=of_material, warnings=warnings)
 
 
-def find_texture(texture: TextureMap, files: Mapping[str, bytes], allow_untextured: bool) -> str | None:
+def find_texture(texture: TextureMap, files: SentFiles, allow_untextured: bool) -> str | None:
     """Find the file of an image.
 
     Returns
@@ -106,7 +104,7 @@ def find_texture(texture: TextureMap, files: Mapping[str, bytes], allow_untextur
         MISSING_TEXTURE, UNSAFE_REFERENCE
     """
     try:
-        found = find_file(files, texture.reference, texture.named_by)
+        found = files.find(texture.reference, texture.named_by)
     except MeshError:
         if allow_untextured:
             return None

@@ -6,10 +6,11 @@ import numpy as np
 
 from worker.arrays import BoolArray, FloatArray, IntArray
 from worker.errors import Code, MeshError
+from worker.reading.limits import Limits
 from worker.reading.ply_ascii import read_ascii
 from worker.reading.ply_binary import read_binary
-from worker.reading.ply_columns import Lists, Table
-from worker.reading.ply_header import Element, Header, check_promise, read_header
+from worker.reading.ply_columns import Body, Lists, Table
+from worker.reading.ply_header import INDEX_NAMES, Header, check_promise, read_header
 from worker.reading.surface import Material, Surface, TextureMap, check_finite, check_indices
 
 _COLOUR_NAMES = (
@@ -18,10 +19,9 @@ _COLOUR_NAMES = (
     ("r", "g", "b"),
 )
 _UV_NAMES = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"), ("texture_s", "texture_t"))
-_INDEX_NAMES = ("vertex_indices", "vertex_index")
 
 
-def read_ply(data: bytes, name: str) -> Surface:
+def read_ply(data: bytes, name: str, limits: Limits) -> Surface:
     """Read a PLY file.
 
     Parameters
@@ -30,6 +30,8 @@ def read_ply(data: bytes, name: str) -> Surface:
         The file.
     name : str
         Its path in the upload.
+    limits : Limits
+        The most faces.
 
     Raises
     ------
@@ -37,60 +39,37 @@ def read_ply(data: bytes, name: str) -> Surface:
         Any code of a mesh file.
     """
     header = read_header(data)
-    check_promise(header, len(data))
-    vertex, face = _elements(header)
+    check_promise(header, len(data), limits)
     body = read_binary(data, header) if header.byte_order else read_ascii(data, header)
-    vertices, faces = body["vertex"], body["face"]
-    xyz = np.stack([vertices.scalars[axis] for axis in "xyz"], axis=1)  # (n, 3)
-    indices = next(faces.lists[name] for name in _INDEX_NAMES if name in faces.lists)
-    corners = indices.values.astype(np.int64)
-    check_indices(corners, len(xyz))
-    check_finite(xyz, "coordinates")
-    return _surface(header, (vertex, vertices), (face, faces), xyz, indices, name)
+    vertices = np.stack([body["vertex"].scalars[axis] for axis in "xyz"], axis=1)  # (n, 3)
+    lists = body["face"].lists
+    indices = next(lists[known] for known in INDEX_NAMES if known in lists)
+    check_indices(indices.values.astype(np.int64), len(vertices))
+    check_finite(vertices, "coordinates")
+    return _surface(header, body, vertices, indices, name)
 
 
-def _elements(header: Header) -> tuple[Element, Element]:
-    """Return the elements of vertices and faces, with the properties that every mesh needs."""
-    vertex, face = header.element("vertex"), header.element("face")
-    names = {field.name for field in vertex.properties if field.count_type is None} if vertex else set()
-    if vertex is None or not {"x", "y", "z"} <= names:
-        raise MeshError(Code.BAD_HEADER, "The PLY header announces no vertices with x, y and z.")
-    lists = {f.name: f.type for f in face.properties if f.count_type is not None} if face else {}
-    kinds = [lists[name] for name in _INDEX_NAMES if name in lists]
-    if face is None or not kinds or kinds[0].startswith("f"):
-        raise MeshError(Code.BAD_HEADER, "The PLY header announces no faces with a list “vertex_indices”.")
-    return vertex, face
-
-
-def _surface(
-    header: Header,
-    vertex: tuple[Element, Table],
-    face: tuple[Element, Table],
-    xyz: FloatArray,
-    indices: Lists,
-    name: str,
-) -> Surface:
+def _surface(header: Header, body: Body, vertices: FloatArray, indices: Lists, name: str) -> Surface:
     warnings = [*header.warnings]
     kept = indices.counts >= 3
     if not kept.all():
-        warnings.append(f"{int((~kept).sum())} faces with fewer than three corners were dropped")
+        warnings.append(f"{int((~kept).sum()):,} faces with fewer than three corners were dropped")
     corner_kept = np.repeat(kept, indices.counts)
-    uvs, has_uvs = _texture_coordinates(vertex[1], face[1], indices)
-    materials = tuple(
-        Material(name=file, texture=TextureMap(reference=file, named_by=name))
-        for file in header.texture_files
-    )
-    chosen = _chosen_materials(face[1], len(materials), kept.size)
-    face_colours = _colours(*face, warnings)
+    uvs, has_uvs = _texture_coordinates(body, indices)
+    chosen = _chosen_materials(body["face"], len(header.texture_files), kept.size)
+    face_colours = _colours(header, body, "face", warnings)
     return Surface(
-        vertices=xyz,
+        vertices=vertices,
         corners=indices.values[corner_kept].astype(np.int64),
         counts=indices.counts[kept],
         corner_uvs=uvs[corner_kept],
         face_has_uvs=has_uvs[kept],
         face_materials=chosen[kept],
-        materials=materials,
-        vertex_colours=_colours(*vertex, warnings),
+        materials=tuple(
+            Material(name=file, texture=TextureMap(reference=file, named_by=name))
+            for file in header.texture_files
+        ),
+        vertex_colours=_colours(header, body, "vertex", warnings),
         face_colours=None if face_colours is None else face_colours[kept],
         warnings=tuple(warnings),
     )
@@ -100,33 +79,33 @@ def _first_names(names: Sequence[Sequence[str]], table: Table) -> Sequence[str] 
     return next((found for found in names if all(name in table.scalars for name in found)), None)
 
 
-def _colours(element: Element, table: Table, warnings: list[str]) -> FloatArray | None:
+def _colours(header: Header, body: Body, element: str, warnings: list[str]) -> FloatArray | None:
     """Return colours in 0…1 by the declared type: whole numbers by its maximum, floats as they are."""
-    names = _first_names(_COLOUR_NAMES, table)
-    if names is None:
+    scalars = body[element].scalars
+    names = _first_names(_COLOUR_NAMES, body[element])
+    declared = header.element(element)
+    if names is None or declared is None:
         return None
-    types = {field.name: field.type for field in element.properties}
+    types = {field.name: field.type for field in declared.properties}
     most = [1.0 if types[name][0] == "f" else float(np.iinfo(types[name]).max) for name in names]
-    colours = np.stack([table.scalars[name] for name in names], axis=1) / most  # (n, 3)
+    colours = np.stack([scalars[name] for name in names], axis=1) / most  # (n, 3)
     if not np.isfinite(colours).all():
-        warnings.append(
-            f"some {element.name} colours are not numbers; the {element.name} colours were dropped"
-        )
+        warnings.append(f"some {element} colours are no finite numbers; the {element} colours were dropped")
         return None
     if colours.size and (colours.min() < 0 or colours.max() > 1):
-        warnings.append(f"{element.name} colours outside of 0…1 were cut off")
+        warnings.append(f"{element} colours outside of 0…1 were cut off")
     return np.clip(colours, 0.0, 1.0)
 
 
-def _texture_coordinates(vertex: Table, face: Table, indices: Lists) -> tuple[FloatArray, BoolArray]:
+def _texture_coordinates(body: Body, indices: Lists) -> tuple[FloatArray, BoolArray]:
     """Return texture coordinates of all corners (k, 2), and which faces (f,) have them."""
     corners = indices.values.astype(np.int64)
-    if "texcoord" in face.lists:
-        return _listed_coordinates(face.lists["texcoord"], indices.counts)
-    names = _first_names(_UV_NAMES, vertex)
+    if "texcoord" in body["face"].lists:
+        return _listed_coordinates(body["face"].lists["texcoord"], indices.counts)
+    names = _first_names(_UV_NAMES, body["vertex"])
     if names is None:
         return np.zeros((corners.size, 2)), np.zeros(indices.counts.size, dtype=np.bool_)
-    uvs = np.stack([vertex.scalars[name] for name in names], axis=1)  # (n, 2)
+    uvs = np.stack([body["vertex"].scalars[name] for name in names], axis=1)  # (n, 2)
     check_finite(uvs, "texture coordinates")
     return uvs[corners], np.ones(indices.counts.size, dtype=np.bool_)
 

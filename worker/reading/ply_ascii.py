@@ -1,13 +1,26 @@
 """PLY bodies written as text: one row a line."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
-from worker.arrays import FloatArray, IntArray
+from worker.arrays import BoolArray, FloatArray, IntArray
 from worker.errors import Code, MeshError
 from worker.reading.numbers import parse_floats
-from worker.reading.ply_columns import Body, Lists, Table, check_counts, positions
+from worker.reading.ply_columns import Body, Lists, Table, check_counts, positions, truncated
 from worker.reading.ply_header import Element, Header
 from worker.reading.words import blocks, split_words, with_line_feeds
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Rows:
+    """The lines of one element."""
+
+    element: Element
+    values: FloatArray  # (k,), all numbers of the file
+    starts: IntArray  # (n,), where each line's first is
+    ends: IntArray  # (n,), after its last
+    cut: bool  # the last line is the file's last and does not end: it may be cut
 
 
 def read_ascii(data: bytes, header: Header) -> Body:
@@ -18,29 +31,34 @@ def read_ascii(data: bytes, header: Header) -> Body:
     MeshError
         BAD_NUMBER, TRUNCATED, TRAILING_DATA, BAD_DATA
     """
-    values, lengths = _read_rows(with_line_feeds(data[header.body :]))
-    ends = np.cumsum(lengths)  # (n_rows,), in values
+    text = with_line_feeds(data[header.body :])
+    values, lengths = _read_numbers(text)
+    ends = np.cumsum(lengths)  # (n_lines,), in values
     body: Body = {}
     first = 0
     for element in header.elements:
         last = first + element.count
         if last > ends.size:
-            raise _truncated(element, ends.size - first)
-        rows = slice(first, last)
+            raise truncated(element, ends.size - first)
         body[element.name] = _read_table(
-            values, ends[rows] - lengths[rows], ends[rows], element, last == ends.size
+            _Rows(
+                element=element,
+                values=values,
+                starts=(ends - lengths)[first:last],
+                ends=ends[first:last],
+                cut=last == ends.size and not text.endswith(b"\n"),
+            )
         )
         first = last
     if first < ends.size:
         raise MeshError(
-            Code.TRAILING_DATA,
-            f"The header announces {first:,} lines of data, but {ends.size:,} follow.",
+            Code.TRAILING_DATA, f"The header announces {first:,} lines of data, but {ends.size:,} follow."
         )
     return body
 
 
-def _read_rows(text: bytes) -> tuple[FloatArray, IntArray]:
-    """Return all numbers of the text (k,), and how many stand on each line that is not blank (n_rows,)."""
+def _read_numbers(text: bytes) -> tuple[FloatArray, IntArray]:
+    """Return all numbers of the text (k,), and how many stand on each line that is not blank (n_lines,)."""
     values, lengths = [np.zeros(0)], [np.zeros(0, dtype=np.int64)]
     for block, line in blocks(text):
         words = split_words(block, line)
@@ -50,51 +68,51 @@ def _read_rows(text: bytes) -> tuple[FloatArray, IntArray]:
     return np.concatenate(values), np.concatenate(lengths)
 
 
-def _read_table(
-    values: FloatArray, starts: IntArray, ends: IntArray, element: Element, is_last: bool
-) -> Table:
-    """Read rows of which each is values[start:end]."""
-    scalars, lists = {}, {}
-    places = starts
-    for field in element.properties:
-        _check_rows(places < ends, element, is_last)
+def _read_table(rows: _Rows) -> Table:
+    scalars: dict[str, FloatArray] = {}
+    lists: dict[str, Lists] = {}
+    places = rows.starts  # (n,), of the next number in each line
+    for field in rows.element.properties:
+        _check_enough(rows, places < rows.ends)
         if field.count_type is None:
-            scalars[field.name] = _checked(values[places], field.type, element)
+            scalars[field.name] = _checked(rows.values[places], field.type, rows.element)
             places = places + 1
             continue
-        counts = _whole(values[places], element)
-        check_counts(counts, element.name)
-        _check_rows(places + counts < ends, element, is_last)
-        found = values[positions(places + 1, counts)]
-        lists[field.name] = Lists(values=_checked(found, field.type, element), counts=counts)
+        counts = _checked(rows.values[places], field.count_type, rows.element).astype(np.int64)
+        check_counts(counts, rows.element)
+        _check_enough(rows, places + counts < rows.ends)
+        found = rows.values[positions(places + 1, counts)]
+        lists[field.name] = Lists(values=_checked(found, field.type, rows.element), counts=counts)
         places = places + 1 + counts
-    if (places != ends).any():
-        row = int(np.argmax(places != ends))
-        raise MeshError(
-            Code.BAD_DATA, f"The {element.name} number {row + 1} has more numbers than the header announces."
-        )
-    return Table(scalars=scalars, lists=lists)
+    return Table(scalars=_trusted(rows, scalars, rows.ends - places), lists=lists)
 
 
-def _check_rows(enough: np.ndarray[tuple[int], np.dtype[np.bool_]], element: Element, is_last: bool) -> None:
-    """Refuse rows with too few numbers; where only the file's last is short, the file was cut."""
-    if enough.all():
-        return
-    if is_last and enough[:-1].all():
-        raise _truncated(element, element.count - 1)
-    row = int(np.argmin(enough))
+def _trusted(rows: _Rows, scalars: dict[str, FloatArray], extra: IntArray) -> dict[str, FloatArray]:
+    """Refuse lines with numbers to spare, but for those that MeshLab once wrote.
+
+    It announced a face's colour as four numbers and wrote a list: then every line has as many too
+    many, and the numbers after the lists mean nothing.
+    """
+    if not extra.any():
+        return scalars
+    if rows.element.name == "face" and extra.size > 1 and (extra == extra[0]).all():
+        return {}
+    row = int(np.argmax(extra != 0))
     raise MeshError(
-        Code.BAD_DATA, f"The {element.name} number {row + 1} has fewer numbers than it announces."
+        Code.BAD_DATA, f"The {rows.element.name} number {row + 1} has more numbers than the header announces."
     )
 
 
-def _whole(values: FloatArray, element: Element) -> IntArray:
-    """Return list lengths; a count that is no whole number is refused, and so is one past any file."""
-    if not (np.abs(values) < 2**53).all() or (values != np.floor(values)).any():
-        raise MeshError(
-            Code.BAD_DATA, f"A list of the {element.name} data has a length that is no whole number."
-        )
-    return values.astype(np.int64)
+def _check_enough(rows: _Rows, enough: BoolArray) -> None:
+    """Refuse lines with too few numbers."""
+    if enough.all():
+        return
+    if rows.cut and enough[:-1].all():
+        raise truncated(rows.element, rows.element.count - 1)
+    row = int(np.argmin(enough))
+    raise MeshError(
+        Code.BAD_DATA, f"The {rows.element.name} number {row + 1} has fewer numbers than it announces."
+    )
 
 
 def _checked(values: FloatArray, kind: str, element: Element) -> FloatArray:
@@ -110,10 +128,3 @@ def _checked(values: FloatArray, kind: str, element: Element) -> FloatArray:
             f"whole numbers from {bounds.min} to {bounds.max}.",
         )
     return values
-
-
-def _truncated(element: Element, whole: int) -> MeshError:
-    return MeshError(
-        Code.TRUNCATED,
-        f"The file ends within the {element.name} data: {element.count:,} announced, {max(whole, 0):,} whole.",
-    )

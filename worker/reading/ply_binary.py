@@ -7,7 +7,7 @@ import numpy as np
 
 from worker.arrays import ByteArray, FloatArray, IntArray
 from worker.errors import Code, MeshError
-from worker.reading.ply_columns import Body, Lists, Table, check_counts, positions
+from worker.reading.ply_columns import Body, Lists, Table, check_counts, positions, truncated
 from worker.reading.ply_header import Element, Header
 
 _FORMATS = {"i1": "b", "u1": "B", "i2": "h", "u2": "H", "i4": "i", "u4": "I", "f4": "f", "f8": "d"}
@@ -43,7 +43,7 @@ def _read_table(data: bytes, start: int, element: Element, order: str) -> tuple[
         if all((rows[f"count{place}"] == length).all() for place, length in lengths.items()):
             return _equal_rows(rows, element, lengths), end
     if not lengths:
-        raise _truncated(element, (len(data) - start) // row.itemsize)
+        raise truncated(element, (len(data) - start) // row.itemsize)
     return _mixed_rows(data, start, element, order, would_fit=end == len(data))
 
 
@@ -69,7 +69,7 @@ def _lengths_of_first(data: bytes, start: int, element: Element, order: str) -> 
     return {place: int(counts[place, 0]) for place in places}
 
 
-def _equal_rows(rows: np.ndarray, element: Element, lengths: dict[int, int]) -> Table:  # type: ignore[type-arg]
+def _equal_rows(rows: np.ndarray, element: Element, lengths: dict[int, int]) -> Table:
     scalars, lists = {}, {}
     for place, field in enumerate(element.properties):
         values: FloatArray = rows[f"value{place}"].astype(np.float64)
@@ -139,15 +139,15 @@ def _walk(data: bytes, position: int, element: Element, order: str) -> tuple[Int
         for (skip, head, item), column in zip(steps, found, strict=True):
             position += skip
             if position + head.size > size:
-                raise _truncated(element, row)
+                raise truncated(element, row)
             count = data[position] if head.format == "B" else head.unpack_from(data, position)[0]
             if count < 0:
-                check_counts(np.array([count]), f"{element.name} after {row}:")
+                check_counts(np.array([count]), element, row)
             column.append(count)
             position += head.size + count * item
         position += tail
         if position > size:
-            raise _truncated(element, row)
+            raise truncated(element, row)
     counts = np.ones((len(element.properties), element.count), dtype=np.int64)
     places = [place for place, field in enumerate(element.properties) if field.count_type]
     for place, column in zip(places, found, strict=True):
@@ -156,7 +156,7 @@ def _walk(data: bytes, position: int, element: Element, order: str) -> tuple[Int
 
 
 def _steps(element: Element, order: str) -> tuple[list[tuple[int, struct.Struct, int]], int]:
-    """Return for each list the bytes before it, its length's form and its items' size; the bytes after the last."""
+    """Return each list's bytes before it, its length's form and its items' size; the bytes after the last."""
     steps = []
     skip = 0
     for field in element.properties:
@@ -176,10 +176,3 @@ def _gather(source: ByteArray, starts: IntArray, kind: str) -> FloatArray:
     for byte in range(size):
         found[:, byte] = source[starts + byte]
     return found.view(kind).reshape(-1).astype(np.float64)
-
-
-def _truncated(element: Element, whole: int) -> MeshError:
-    return MeshError(
-        Code.TRUNCATED,
-        f"The file ends within the {element.name} data: {element.count:,} announced, {whole:,} whole.",
-    )

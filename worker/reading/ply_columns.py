@@ -6,6 +6,7 @@ import numpy as np
 
 from worker.arrays import FloatArray, IntArray
 from worker.errors import Code, MeshError
+from worker.reading.ply_header import Element
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -27,8 +28,17 @@ class Table:
 Body = dict[str, Table]  # by the element's name
 
 
-def check_counts(counts: IntArray, what: str) -> None:
+def check_counts(counts: IntArray, element: Element, before: int = 0) -> None:
     """Refuse lists of negative length.
+
+    Parameters
+    ----------
+    counts : IntArray
+        (n,) lengths in rows one after the other.
+    element : Element
+        Of which they are rows.
+    before : int
+        Rows before the first.
 
     Raises
     ------
@@ -37,7 +47,18 @@ def check_counts(counts: IntArray, what: str) -> None:
     """
     if (counts < 0).any():
         row = int(np.argmax(counts < 0))
-        raise MeshError(Code.BAD_DATA, f"The {what} number {row + 1} announces {int(counts[row])} corners.")
+        raise MeshError(
+            Code.BAD_DATA,
+            f"The {element.name} number {before + row + 1} announces a list of {int(counts[row])} numbers.",
+        )
+
+
+def truncated(element: Element, whole: int) -> MeshError:
+    """Return the refusal of a file that ends after so many whole rows of an element."""
+    return MeshError(
+        Code.TRUNCATED,
+        f"The file ends within its {element.name}s: {element.count:,} announced, {max(whole, 0):,} there.",
+    )
 
 
 def positions(starts: IntArray, counts: IntArray) -> IntArray:

@@ -3,13 +3,16 @@
 from dataclasses import dataclass
 
 from worker.errors import Code, MeshError
+from worker.reading.limits import Limits
+from worker.reading.surface import among
 
-TYPES = {
-    **{"char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4"},
-    **{"float": "f4", "double": "f8", "int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2"},
-    **{"int32": "i4", "uint32": "u4", "float32": "f4", "float64": "f8"},
-}
+TYPES = dict[str, str](
+    char="i1", uchar="u1", short="i2", ushort="u2", int="i4", uint="u4", float="f4", double="f8"
+) | dict[str, str](
+    int8="i1", uint8="u1", int16="i2", uint16="u2", int32="i4", uint32="u4", float32="f4", float64="f8"
+)
 BYTE_ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+INDEX_NAMES = ("vertex_indices", "vertex_index")  # of the list of a face's corners
 _END = b"end_header"
 _LONGEST = 1 << 20  # bytes of a header
 
@@ -108,7 +111,7 @@ class _Builder:
         self.format: str | None = None
         self.elements: list[tuple[str, int, list[Property]]] = []
         self.texture_files: list[str] = []
-        self.warnings: list[str] = []
+        self.unknown: list[str] = []
 
     def take(self, line: str) -> None:
         words = line.split()
@@ -125,9 +128,7 @@ class _Builder:
             case ["property"]:
                 self._take_property(words)
             case _:
-                self.warnings.append(
-                    f"the header line “{line.strip()[:60]}” is not understood and was skipped"
-                )
+                self.unknown.append(line.strip())
 
     def _take_format(self, words: list[str]) -> None:
         if self.format is not None or len(words) != 3 or words[1] not in BYTE_ORDERS or words[2] != "1.0":
@@ -162,7 +163,7 @@ class _Builder:
             ),
             texture_files=tuple(self.texture_files),
             body=body,
-            warnings=tuple(self.warnings),
+            warnings=tuple(among(self.unknown, "header lines are not understood and were skipped")),
         )
 
 
@@ -179,7 +180,7 @@ def _bad(what: str) -> MeshError:
     return MeshError(Code.BAD_HEADER, f"The PLY header cannot be right: {what}.")
 
 
-def check_promise(header: Header, n_bytes: int) -> None:
+def check_promise(header: Header, n_bytes: int, limits: Limits) -> None:
     """Refuse a header that promises nothing to see, or more than the file can hold.
 
     Parameters
@@ -187,11 +188,13 @@ def check_promise(header: Header, n_bytes: int) -> None:
     header : Header
     n_bytes : int
         Size of the whole file.
+    limits : Limits
+        The most faces.
 
     Raises
     ------
     MeshError
-        EMPTY, UNSUPPORTED, NO_FACES, BAD_HEADER, TRUNCATED
+        EMPTY, UNSUPPORTED, NO_FACES, BAD_HEADER, TRUNCATED, TOO_COMPLEX
     """
     counts = {element.name: element.count for element in header.elements}
     if counts.get("tristrips"):
@@ -200,6 +203,7 @@ def check_promise(header: Header, n_bytes: int) -> None:
         raise MeshError(Code.EMPTY, "The header announces neither vertices nor faces.")
     if not counts.get("face"):
         raise MeshError(Code.NO_FACES, "The file holds points only; expected faces.")
+    _check_needed(header)
     text = header.byte_order == ""
     least = sum(element.count * element.least_bytes(text) for element in header.elements)
     left = n_bytes - header.body + int(text)  # the last line may end without a blank
@@ -208,3 +212,20 @@ def check_promise(header: Header, n_bytes: int) -> None:
             Code.TRUNCATED,
             f"The header announces at least {least:,} bytes of data, but only {max(left, 0):,} follow.",
         )
+    if max(counts.values()) > limits.faces:
+        raise MeshError(
+            Code.TOO_COMPLEX,
+            f"The header announces {max(counts.values()):,} rows; at most {limits.faces:,} are read.",
+        )
+
+
+def _check_needed(header: Header) -> None:
+    """Refuse a header without what every mesh needs."""
+    vertex, face = header.element("vertex"), header.element("face")
+    names = {field.name for field in vertex.properties if field.count_type is None} if vertex else set()
+    if not {"x", "y", "z"} <= names:
+        raise MeshError(Code.BAD_HEADER, "The PLY header announces no vertices with x, y and z.")
+    lists = {f.name: f.type for f in face.properties if f.count_type is not None} if face else {}
+    kinds = [lists[name] for name in INDEX_NAMES if name in lists]
+    if not kinds or kinds[0].startswith("f"):
+        raise MeshError(Code.BAD_HEADER, "The PLY header announces no faces with a list “vertex_indices”.")

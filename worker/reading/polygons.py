@@ -96,13 +96,14 @@ def newell_normals(points: FloatArray) -> FloatArray:
     FloatArray
         (p, 3)
     """
-    return np.cross(points, np.roll(points, -1, axis=1)).sum(axis=1)
+    normals: FloatArray = np.cross(points, np.roll(points, -1, axis=1)).sum(axis=1)
+    return normals
 
 
 def _smallest(points: FloatArray, normals: FloatArray, fan: IntArray) -> FloatArray:
     """Return the smallest signed triangle of the fan in each polygon, seen along its normal: (p,)."""
     a, b, c = (points[:, fan[:, corner]] for corner in range(3))  # (p, size-2, 3)
-    signed = np.einsum("pti,pi->pt", np.cross(b - a, c - a), normals)  # (p, size-2)
+    signed: FloatArray = np.einsum("pti,pi->pt", np.cross(b - a, c - a), normals)  # (p, size-2)
     smallest: FloatArray = signed.min(axis=1)
     return smallest
 

@@ -1,5 +1,6 @@
 """What a file says, before textures are opened: polygons with the names of their colours."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -75,3 +76,11 @@ def check_finite(values: FloatArray, what: str) -> None:
             f"Expected finite {what}, but {int(wrong.sum())} of {wrong.size} hold NaN or infinity, "
             f"the first is number {int(np.argmax(wrong)) + 1}.",
         )
+
+
+def among(names: Sequence[str], what: str) -> list[str]:
+    """Return one warning for names of which there may be thousands, or none."""
+    if not names:
+        return []
+    shown = ", ".join(f"“{name[:60]}”" for name in names[:3])
+    return [f"{len(names)} {what}: {shown}{' …' if len(names) > 3 else ''}"]

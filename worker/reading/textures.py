@@ -2,6 +2,9 @@
 
 import io
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from threading import Lock
 
 import numpy as np
 from PIL import Image
@@ -15,6 +18,7 @@ FORMATS = ("PNG", "JPEG", "BMP", "TGA", "TIFF", "WEBP", "GIF", "JPEG2000", "PPM"
 
 _SIXTEEN_BITS = 65535.0
 _THIRTY_TWO_BITS = 2147483647.0
+_quiet = Lock()
 
 
 def check_image(data: bytes, name: str, limits: Limits) -> None:
@@ -34,11 +38,17 @@ def check_image(data: bytes, name: str, limits: Limits) -> None:
     MeshError
         BAD_IMAGE where it is none, IMAGE_TOO_LARGE
     """
-    _open(data, name, limits)
+    with _refusals(name, limits):
+        _open(data, name, limits)
 
 
 def read_image(data: bytes, name: str, limits: Limits) -> ByteArray:
     """Decode an image; transparency is dropped.
+
+    Parameters
+    ----------
+    data, name, limits
+        As in `check_image`.
 
     Returns
     -------
@@ -50,36 +60,39 @@ def read_image(data: bytes, name: str, limits: Limits) -> ByteArray:
     MeshError
         BAD_IMAGE, IMAGE_TOO_LARGE
     """
-    image = _open(data, name, limits)
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of the image's metadata, which is not used
-            image.load()
-            return _to_bytes(image)
-    except MemoryError:
-        raise
-    except Exception as error:  # noqa: BLE001 -- Pillow raises whatever its readers stumble over
-        raise MeshError(Code.BAD_IMAGE, f"The image “{name}” is damaged: {error}.") from error
+    with _refusals(name, limits):
+        image = _open(data, name, limits)
+        image.load()
+        return _to_bytes(image)
 
 
-def _open(data: bytes, name: str, limits: Limits) -> Image.Image:
+@contextmanager
+def _refusals(name: str, limits: Limits) -> Iterator[None]:
+    """Turn whatever Pillow raises into a refusal, and keep its warnings to itself."""
     try:
-        with warnings.catch_warnings():
+        # Filters of warnings belong to the whole process: one thread at a time may change them.
+        with _quiet, warnings.catch_warnings():
             warnings.simplefilter("ignore")  # Pillow's own limit warns; ours refuses
-            image = Image.open(io.BytesIO(data), formats=FORMATS)
+            yield
+    except (MeshError, MemoryError):
+        raise
     except Image.DecompressionBombError:
         raise MeshError(
             Code.IMAGE_TOO_LARGE, f"The image “{name}” has more than {limits.image_pixels:,} pixels."
         ) from None
-    except Exception as error:  # noqa: BLE001 -- Pillow raises whatever its readers stumble over
+    except Exception as error:  # Pillow raises whatever its readers stumble over
         raise MeshError(
-            Code.BAD_IMAGE, f"Expected an image in “{name}” (PNG, JPEG, TIFF …), but it cannot be read."
+            Code.BAD_IMAGE, f"Expected an image (PNG, JPEG, TIFF …) in “{name}”, but it cannot be read."
         ) from error
+
+
+def _open(data: bytes, name: str, limits: Limits) -> Image.Image:
+    image = Image.open(io.BytesIO(data), formats=FORMATS)
     width, height = image.size
     if width * height > limits.image_pixels:
         raise MeshError(
             Code.IMAGE_TOO_LARGE,
-            f"The image “{name}” has {width} × {height} pixels; at most {limits.image_pixels:,} are read.",
+            f"The image “{name}” has {width} by {height} pixels; at most {limits.image_pixels:,} are read.",
         )
     return image
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from worker.arrays import BoolArray, ByteArray, IntArray
 
-BLOCK = 1 << 23  # bytes of text that are cut at a time, so that long files need little memory
+BLOCK = 1 << 20  # bytes of text that are cut at a time, so that long files need little memory
 
 _BLANK = np.zeros(256, dtype=np.bool_)
 _BLANK[list(b" \t\n\v\f\r")] = True
@@ -40,7 +40,7 @@ def split_words(text: bytes, first_line: int = 1) -> Words:
     Parameters
     ----------
     text : bytes
-        Lines that end with ``\\n``.
+        Lines that end with a line feed.
     first_line : int
         The number of the first line.
     """
@@ -65,5 +65,5 @@ def blocks(text: bytes, size: int = BLOCK) -> Iterator[tuple[bytes, int]]:
 
 
 def with_line_feeds(text: bytes) -> bytes:
-    """Return the text with every line end, of Windows or old Macintosh too, written ``\\n``."""
+    """Return the text with every line end, of Windows or old Macintosh too, written as a line feed."""
     return text.replace(b"\r\n", b"\n").replace(b"\r", b"\n") if b"\r" in text else text

@@ -1,0 +1,52 @@
+"""What the headers of an upload's files tell, without reading the mesh itself."""
+
+from worker.reading.limits import Limits
+from worker.reading.obj import check_text
+from worker.reading.obj_materials import find_materials
+from worker.reading.obj_scan import named_libraries, used_materials
+from worker.reading.painting import find_texture
+from worker.reading.ply_header import check_promise, read_header
+from worker.reading.references import SentFiles
+from worker.reading.surface import TextureMap
+from worker.reading.textures import check_image
+
+
+def inspect_files(files: SentFiles, name: str, limits: Limits, *, allow_untextured: bool) -> None:
+    """Look at the header of a PLY file, or at the names in an OBJ file and the images that they mean.
+
+    Parameters
+    ----------
+    files : SentFiles
+        The upload.
+    name : str
+        The mesh's path in it.
+    limits : Limits
+    allow_untextured : bool
+        Go on without materials and images that were not sent.
+
+    Raises
+    ------
+    MeshError
+        What `read_mesh` would raise, where that can be seen.
+    """
+    if name.lower().endswith(".ply"):
+        check_promise(read_header(files[name]), len(files[name]), limits)
+        return
+    for image in _needed_images(files, name, allow_untextured):
+        check_image(files[image], image, limits)
+
+
+def _needed_images(files: SentFiles, name: str, allow_untextured: bool) -> list[str]:
+    """Return the images that faces of an OBJ file need, by path."""
+    text = check_text(files[name])
+    used = used_materials(text)
+    materials, _ = find_materials(
+        named_libraries(text), used.keys(), name, files, allow_untextured=allow_untextured
+    )
+    maps: dict[TextureMap, None] = {}
+    for material, has_uvs in used.items():
+        texture = materials[material].texture if has_uvs and material in materials else None
+        if texture is not None:
+            maps[texture] = None
+    found = (find_texture(texture, files, allow_untextured) for texture in maps)
+    return list(dict.fromkeys(path for path in found if path is not None))
