@@ -16,6 +16,7 @@ from service.headers import AddSafeHeaders
 from service.library import Library
 from service.metrics import CountRequests, Metrics
 from service.openapi import DESCRIPTION, SUMMARY, describe_interface
+from service.plain_errors import ReplacePlainErrors
 from service.pool import ProcessPerJob
 from service.routes import contents, events, health, methods, page, search, shapes
 from service.settings import Settings
@@ -60,6 +61,7 @@ def create_app(
         redoc_url=None,
     )
     app.state.key_digests = settings.key_digests
+    app.add_middleware(ReplacePlainErrors)
     app.add_middleware(AddSafeHeaders)
     app.add_middleware(CountRequests, metrics=metrics)
     add_handlers(app)

@@ -1,9 +1,8 @@
-"""The one table of exceptions and HTTP statuses, and the form in which errors leave (RFC 9457)."""
+"""The one table of exceptions and HTTP statuses."""
 
 import errno
 import logging
 from http import HTTPStatus
-from typing import Any
 
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
@@ -23,14 +22,13 @@ from service.multipart import (
     UploadRefused,
 )
 from service.pool import ChildDied, PoolStopped
+from service.problems import plain_problem, problem
 from service.turnstile import TooBusy
 from service.uploads import BodyTooLarge, SlowBody
 from service.vocabularies import NoVocabulary
 from worker.errors import MeshError
 
 log = logging.getLogger(__name__)
-
-MEDIA_TYPE = "application/problem+json"
 
 # The nearest class of an exception's ancestry decides; a code is the exception's own or stands here.
 TABLE: dict[type[Exception], tuple[HTTPStatus, str]] = {
@@ -74,17 +72,6 @@ CODES: dict[type[Exception], str] = {
 FULL = {errno.ENOSPC, errno.EDQUOT}
 
 
-def problem(status: int, *, code: str, title: str, detail: str, **more: Any) -> JSONResponse:
-    """Return an answer of RFC 9457 with a stable ``code``."""
-    body = {"type": f"urn:faience:problem:{code}", "title": title, "status": int(status), "detail": detail}
-    response = JSONResponse({**body, "code": code, **more}, int(status), media_type=MEDIA_TYPE)
-    if status == HTTPStatus.UNAUTHORIZED:
-        response.headers["WWW-Authenticate"] = "Bearer"
-    if status == HTTPStatus.SERVICE_UNAVAILABLE:
-        response.headers["Retry-After"] = "2"
-    return response
-
-
 def add_handlers(app: FastAPI) -> None:
     """Give every exception its answer."""
     for known in TABLE:
@@ -114,14 +101,10 @@ def _invalid(_: Request, error: Exception) -> JSONResponse:
     return problem(status, code="invalid_request", title=title, detail=detail, errors=parts)
 
 
-def _http(request: Request, error: Exception) -> JSONResponse:
+def _http(_: Request, error: Exception) -> JSONResponse:
     """Answer what the framework itself refuses: unknown paths, methods, unreadable bodies."""
     status = error.status_code if isinstance(error, HTTPException) else HTTPStatus.INTERNAL_SERVER_ERROR
-    phrase = HTTPStatus(status).phrase
-    code = phrase.lower().replace(" ", "_").replace("-", "_")
-    response = problem(
-        status, code=code, title=phrase, detail=f"{request.method} {request.url.path}: {phrase}"
-    )
+    response = plain_problem(status)
     response.headers.update(getattr(error, "headers", None) or {})
     return response
 

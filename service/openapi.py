@@ -6,7 +6,7 @@ from typing import Any
 from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
 
-from service.errors import MEDIA_TYPE
+from service.problems import MEDIA_TYPE
 from service.schemas import ProblemModel
 
 SUMMARY = "Search engine for coloured 3D shapes"

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import pytest
+from pydantic import SecretStr
 
 from service.settings import Settings, UnsafeListening, is_loopback
 
@@ -31,7 +32,7 @@ def test_loopback_needs_no_key(host: str) -> None:
 def test_other_machines_are_let_in_with_a_key_or_by_an_explicit_word_only(host: str) -> None:
     with pytest.raises(UnsafeListening, match="FAIENCE_API_KEYS"):
         Settings(host=host).check_listening()
-    Settings(host=host, api_keys="key").check_listening()
+    Settings(host=host, api_keys=(SecretStr("key"),)).check_listening()
     Settings(host=host, insecure=True).check_listening()
 
 
