@@ -5,6 +5,7 @@ from worker.reading.obj import check_text
 from worker.reading.obj_materials import find_materials
 from worker.reading.obj_scan import named_libraries, used_materials
 from worker.reading.painting import find_texture
+from worker.reading.ply import has_texture_coordinates, texture_maps
 from worker.reading.ply_header import check_promise, read_header
 from worker.reading.references import SentFiles
 from worker.reading.surface import TextureMap
@@ -30,23 +31,22 @@ def inspect_files(files: SentFiles, name: str, limits: Limits, *, allow_untextur
         What `read_mesh` would raise, where that can be seen.
     """
     if name.lower().endswith(".ply"):
-        check_promise(read_header(files[name]), len(files[name]), limits)
-        return
-    for image in _needed_images(files, name, allow_untextured):
+        header = read_header(files[name])
+        check_promise(header, len(files[name]), limits)
+        maps = texture_maps(header, name) if has_texture_coordinates(header) else []
+    else:
+        maps = _obj_maps(files, name, allow_untextured)
+    found = [find_texture(texture, files, allow_untextured) for texture in maps]
+    for image in dict.fromkeys(path for path in found if path is not None):
         check_image(files[image], image, limits)
 
 
-def _needed_images(files: SentFiles, name: str, allow_untextured: bool) -> list[str]:
-    """Return the images that faces of an OBJ file need, by path."""
+def _obj_maps(files: SentFiles, name: str, allow_untextured: bool) -> list[TextureMap]:
+    """Return the images that faces of an OBJ file need."""
     text = check_text(files[name])
     used = used_materials(text)
     materials, _ = find_materials(
         named_libraries(text), used.keys(), name, files, allow_untextured=allow_untextured
     )
-    maps: dict[TextureMap, None] = {}
-    for material, has_uvs in used.items():
-        texture = materials[material].texture if has_uvs and material in materials else None
-        if texture is not None:
-            maps[texture] = None
-    found = (find_texture(texture, files, allow_untextured) for texture in maps)
-    return list(dict.fromkeys(path for path in found if path is not None))
+    covered = (materials[material] for material, has_uvs in used.items() if has_uvs and material in materials)
+    return list(dict.fromkeys(material.texture for material in covered if material.texture is not None))

@@ -21,7 +21,7 @@ def named_libraries(text: bytes) -> list[str]:
 
 
 def used_materials(text: bytes) -> dict[str, bool]:
-    """Return the materials of faces, and whether a first face of each has texture coordinates.
+    """Return the materials of faces, and whether a face of each has texture coordinates.
 
     Parameters
     ----------
@@ -30,9 +30,9 @@ def used_materials(text: bytes) -> dict[str, bool]:
     """
     has_uvs = b"\nvt" in text
     lines = list(_lines_of(text, b"usemtl"))
-    ends = [start for _, start in lines[1:]] + [len(text)]
+    following = [start for _, start in lines[1:]] + [len(text)]
     used: dict[str, bool] = {}
-    for (name, start), end in zip(lines, ends, strict=True):
+    for (name, start), end in zip(lines, following, strict=False):
         if used.get(name) or _FACE.search(text, start, end) is None:
             continue
         used[name] = has_uvs and _FACE_WITH_UV.search(text, start, end) is not None

@@ -49,6 +49,19 @@ def read_ply(data: bytes, name: str, limits: Limits) -> Surface:
     return _surface(header, body, vertices, indices, name)
 
 
+def texture_maps(header: Header, name: str) -> list[TextureMap]:
+    """Return the images that a file's comments name; `name` is its path in the upload."""
+    return [TextureMap(reference=file, named_by=name) for file in header.texture_files]
+
+
+def has_texture_coordinates(header: Header) -> bool:
+    """Return whether the header announces texture coordinates, of vertices or of corners."""
+    vertex, face = header.element("vertex"), header.element("face")
+    names = {field.name for field in vertex.properties} if vertex else set()
+    lists = {field.name for field in face.properties if field.count_type} if face else set()
+    return "texcoord" in lists or any(names >= set(pair) for pair in _UV_NAMES)
+
+
 def _surface(header: Header, body: Body, vertices: FloatArray, indices: Lists, name: str) -> Surface:
     warnings = [*header.warnings]
     kept = indices.counts >= 3
@@ -66,8 +79,7 @@ def _surface(header: Header, body: Body, vertices: FloatArray, indices: Lists, n
         face_has_uvs=has_uvs[kept],
         face_materials=chosen[kept],
         materials=tuple(
-            Material(name=file, texture=TextureMap(reference=file, named_by=name))
-            for file in header.texture_files
+            Material(name=texture.reference, texture=texture) for texture in texture_maps(header, name)
         ),
         vertex_colours=_colours(header, body, "vertex", warnings),
         face_colours=None if face_colours is None else face_colours[kept],
