@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property
 from importlib import resources
+from zipfile import BadZipFile
 
 import numpy as np
 import numpy.typing as npt
@@ -83,7 +84,7 @@ class Vocabulary:
         try:
             with np.load(io.BytesIO(data), allow_pickle=False) as arrays:
                 return cls._from_arrays(dict(arrays))
-        except (ValueError, KeyError, OSError, EOFError) as error:
+        except (ValueError, KeyError, OSError, EOFError, BadZipFile) as error:
             raise BadVocabulary(
                 "A vocabulary written by Faience was expected; this file is not one."
             ) from error

@@ -1,0 +1,1 @@
+"""Measurements and the tables they print; each is a command of its own."""
