@@ -43,7 +43,8 @@ def checked_blocks(blocks: Mapping[str, npt.ArrayLike]) -> dict[str, SingleArray
     """Return the blocks as float32 vectors; BadBlock for what no distance can be taken of."""
     checked = {}
     for name, block in blocks.items():
-        values = np.asarray(block, dtype=np.float32)
+        with np.errstate(over="ignore"):  # becomes infinity, which is refused below
+            values = np.asarray(block, dtype=np.float32)
         if values.ndim != 1 or values.size == 0:
             raise BadBlock(f"block {name!r} is not a vector: its shape is {values.shape}")
         if not np.isfinite(values).all():

@@ -8,7 +8,7 @@ from index.editing import Editing
 from index.listing import Listing
 from index.revisions import Revisions
 from index.stored_blocks import StoredBlocks
-from index.vocabularies import Vocabularies
+from index.stored_vocabularies import Vocabularies
 
 
 class Catalogue(Acceptance, Editing, Descriptions, Revisions, StoredBlocks, Vocabularies, Listing):

@@ -68,7 +68,7 @@ def writing(engine: Engine) -> Iterator[Session]:
 def _prepare_sqlite(connection: sqlite3.Connection, _record: Any) -> None:
     connection.isolation_level = None  # _begin_sqlite says BEGIN; the driver would say it too late
     for pragma in (
-        f"busy_timeout = {_BUSY_SECONDS * 1000}",
+        f"busy_timeout = {int(_BUSY_SECONDS * 1000)}",
         "journal_mode = WAL",
         "synchronous = FULL",  # NORMAL may lose acknowledged commits when the power fails
         "foreign_keys = ON",

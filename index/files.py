@@ -12,11 +12,12 @@ from typing import IO, BinaryIO
 from uuid import uuid4
 
 from index.errors import FileMissing
-from index.storage import full_disk_named
+from index.full_disk import full_disk_named
 
 _KEY = re.compile(r"[A-Za-z0-9_-][A-Za-z0-9._-]*(/[A-Za-z0-9_-][A-Za-z0-9._-]*)*")
 _INCOMING = ".incoming"  # half-written files; no key can start with a dot
 _CHUNK = 1 << 20  # bytes read at once
+_ATTEMPTS = 20  # to rename into a folder that others empty and remove
 
 
 class FileStore:
@@ -127,13 +128,13 @@ class FileStore:
         return swept
 
     def _rename(self, aside: Path, final: Path) -> None:
-        for last in (False, False, True):
+        for left in reversed(range(_ATTEMPTS)):
             try:
                 _make_folder(final.parent)
                 aside.replace(final)
                 break
             except FileNotFoundError:  # a delete beside us pruned the folder just now
-                if last:
+                if not left:
                     raise
         _flush_folder(final.parent)
 

@@ -1,4 +1,4 @@
-"""Vocabularies: kept beside each other, one of them active, changed only when every shape is ready for it."""
+"""Stored vocabularies: several beside each other, one of them active, changed for all shapes at once."""
 
 from collections.abc import Mapping
 

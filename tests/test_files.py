@@ -1,0 +1,175 @@
+import errno
+import io
+import os
+import stat
+from concurrent.futures import ThreadPoolExecutor
+from hashlib import sha256
+from pathlib import Path
+
+import pytest
+
+from index.errors import FileMissing, StorageFull
+from index.files import FileStore
+
+
+def everything_in(root: Path) -> list[str]:
+    return sorted(str(path.relative_to(root)) for path in root.rglob("*") if path.name != ".incoming")
+
+
+def test_what_was_put_is_given_back(tmp_path: Path) -> None:
+    store = FileStore(tmp_path / "files")
+    store.put("shapes/a/files/0", b"one")
+    store.put("shapes/a/files/0", b"another")
+    assert store.get("shapes/a/files/0") == b"another"
+    assert store.path("shapes/a/files/0").read_bytes() == b"another"
+
+
+def test_a_stream_is_kept_with_its_size_and_checksum(tmp_path: Path) -> None:
+    data = os.urandom(3 << 20) + b"x"
+    store = FileStore(tmp_path)
+    assert store.put_stream("k", io.BytesIO(data)) == (len(data), sha256(data).hexdigest())
+    assert store.get("k") == data
+
+
+def test_the_content_is_flushed_before_the_name_appears_and_the_folder_after(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    store = FileStore(tmp_path)
+    store.put("shapes/first", b"makes the folders")
+    steps: list[tuple[str, str]] = []
+    flush, replace = os.fsync, os.replace
+
+    def watched_flush(descriptor: int) -> None:
+        status = os.fstat(descriptor)
+        steps.append(("flush", "folder" if stat.S_ISDIR(status.st_mode) else f"{status.st_size} bytes"))
+        flush(descriptor)
+
+    def watched_replace(source: str | Path, target: str | Path) -> None:
+        steps.append(("rename", Path(target).name))
+        replace(source, target)
+
+    monkeypatch.setattr(os, "fsync", watched_flush)
+    monkeypatch.setattr(os, "replace", watched_replace)
+    store.put("shapes/second", b"12345")
+    assert steps == [("flush", "5 bytes"), ("rename", "second"), ("flush", "folder")]
+
+
+def test_new_folders_are_made_durable_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    flushed: list[Path] = []
+    flush = os.fsync
+
+    def watched_flush(descriptor: int) -> None:
+        flushed.append(Path(f"/proc/self/fd/{descriptor}").resolve())
+        flush(descriptor)
+
+    monkeypatch.setattr(os, "fsync", watched_flush)
+    FileStore(tmp_path).put("a/b/c", b"")
+    assert {tmp_path, tmp_path / "a", tmp_path / "a" / "b"} <= set(flushed)
+
+
+@pytest.mark.parametrize("number", [errno.ENOSPC, errno.EDQUOT])
+def test_a_full_disk_is_named_and_leaves_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: int
+) -> None:
+    store = FileStore(tmp_path)
+
+    def full(_descriptor: int) -> None:
+        raise OSError(number, os.strerror(number))
+
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "fsync", full)
+        with pytest.raises(StorageFull):
+            store.put("shapes/a/files/0", b"data")
+    assert everything_in(tmp_path) == []
+    store.put("shapes/a/files/0", b"data")
+    assert store.get("shapes/a/files/0") == b"data"
+
+
+def test_a_disk_that_fills_while_a_file_is_replaced_keeps_the_old_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    store = FileStore(tmp_path)
+    store.put("a/b", b"old")
+
+    def full(_source: object, _target: object) -> None:
+        raise OSError(errno.ENOSPC, "no space")
+
+    monkeypatch.setattr(os, "replace", full)
+    with pytest.raises(StorageFull):
+        store.put("a/b", b"new")
+    assert store.get("a/b") == b"old"
+    assert everything_in(tmp_path) == ["a", "a/b"]
+
+
+def test_a_stream_that_breaks_off_leaves_nothing(tmp_path: Path) -> None:
+    class Broken(io.BytesIO):
+        def read(self, size: int | None = -1, /) -> bytes:
+            if self.tell():
+                raise ConnectionError("cut")
+            return super().read(size)
+
+    with pytest.raises(ConnectionError):
+        FileStore(tmp_path).put_stream("a/b", Broken(b"x" * (2 << 20)))
+    assert everything_in(tmp_path) == []
+
+
+@pytest.mark.parametrize(
+    "key", ["", "/etc/passwd", "..", "a/../b", "a/..", "./a", "a//b", "a/", ".incoming/x", "a\\b", "ä", "a\n"]
+)
+def test_a_key_that_we_cannot_have_made_is_refused(tmp_path: Path, key: str) -> None:
+    with pytest.raises(ValueError, match="not a file key"):
+        FileStore(tmp_path).put(key, b"")
+
+
+def test_what_is_absent_is_named(tmp_path: Path) -> None:
+    with pytest.raises(FileMissing, match="'a/b'"):
+        FileStore(tmp_path).get("a/b")
+
+
+def test_deleting_removes_emptied_folders_and_only_those(tmp_path: Path) -> None:
+    store = FileStore(tmp_path)
+    for key in ("shapes/a/files/0", "shapes/a/thumbnail.png", "shapes/b/files/0"):
+        store.put(key, b"")
+    store.delete("shapes/a/files/0")
+    store.delete("shapes/a/files/0")
+    assert list(store.keys()) == ["shapes/a/thumbnail.png", "shapes/b/files/0"]
+    store.delete_all("shapes/a")
+    store.delete_all("shapes/a")
+    assert everything_in(tmp_path) == ["shapes", "shapes/b", "shapes/b/files", "shapes/b/files/0"]
+
+
+def test_keys_of_a_folder_are_listed_without_half_written_files(tmp_path: Path) -> None:
+    store = FileStore(tmp_path)
+    store.put("a/1", b"")
+    store.put("b/2", b"")
+    (tmp_path / ".incoming" / "half").write_bytes(b"")
+    assert list(store.keys()) == ["a/1", "b/2"]
+    assert list(store.keys("b")) == ["b/2"]
+    assert list(store.keys("c")) == []
+
+
+def test_sweeping_removes_old_half_written_files_alone(tmp_path: Path) -> None:
+    store = FileStore(tmp_path)
+    store.put("a/1", b"")
+    for name, modified in (("old", 1_000.0), ("future", 9e9)):
+        path = tmp_path / ".incoming" / name
+        path.write_bytes(b"")
+        os.utime(path, (modified, modified))
+    assert store.sweep(60) == 1
+    assert sorted(path.name for path in (tmp_path / ".incoming").iterdir()) == ["future"]
+    assert list(store.keys()) == ["a/1"]
+
+
+def test_deleting_beside_writing_in_one_folder_harms_neither(tmp_path: Path) -> None:
+    store = FileStore(tmp_path)
+
+    def again_and_again(name: str) -> None:
+        for _ in range(60):
+            store.put(f"shared/{name}", b"x")
+            assert store.get(f"shared/{name}") == b"x"
+            store.delete(f"shared/{name}")
+
+    with ThreadPoolExecutor(4) as threads:
+        for done in [threads.submit(again_and_again, f"n{number}") for number in range(4)]:
+            done.result()
+    assert everything_in(tmp_path) == []
