@@ -2,6 +2,7 @@ import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -21,6 +22,7 @@ from worker.reading.upload import Upload, read_mesh
 
 PARAMETERS = Parameters()
 SMALL = replace(PARAMETERS, vertices=1_200, distance_samples=300, colour_samples=8_000)
+NARROW_AND_WIDE: list[dict[str, Any]] = [{}, {"cutoff": 1.0, "fine_cutoff": 1.0}]
 SCRIPT = """
 import hashlib, sys
 from pathlib import Path
@@ -107,7 +109,7 @@ def test_on_a_real_mesh_the_kept_pairs_give_the_hks_of_200(
     times = np.array(PARAMETERS.times)
     few, many = (
         solve_joint(surface, weight, replace(PARAMETERS, operator=operator, **more))
-        for more in ({}, {"cutoff": 1.0, "fine_cutoff": 1.0})
+        for more in NARROW_AND_WIDE
     )
     assert len(few.eigenvalues) < 80
     assert len(many.eigenvalues) >= 200
