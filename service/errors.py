@@ -11,6 +11,7 @@ from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse
 
 from index import errors as kept
+from service.child import ChildError
 from service.fields import BadField
 from service.guards import CrossOrigin, Unauthorised
 from service.multipart import (
@@ -23,6 +24,7 @@ from service.multipart import (
 )
 from service.pool import ChildDied, PoolStopped
 from service.problems import plain_problem, problem
+from service.recording import GAVE_UP, UNEXPECTED, UNEXPECTED_DETAIL
 from service.turnstile import TooBusy
 from service.uploads import BodyTooLarge, SlowBody
 from service.vocabularies import NoVocabulary
@@ -63,11 +65,18 @@ TABLE: dict[type[Exception], tuple[HTTPStatus, str]] = {
     TooBusy: (HTTPStatus.SERVICE_UNAVAILABLE, "Too many searches at once"),
     PoolStopped: (HTTPStatus.SERVICE_UNAVAILABLE, "The service is stopping"),
     ChildDied: (HTTPStatus.UNPROCESSABLE_ENTITY, "The mesh could not be described"),
+    ChildError: (HTTPStatus.UNPROCESSABLE_ENTITY, "The mesh could not be described"),
 }
 CODES: dict[type[Exception], str] = {
     OperationalError: "busy",
     PoolStopped: "stopping",
-    ChildDied: "gave_up",
+    ChildDied: GAVE_UP,
+    ChildError: UNEXPECTED,
+}
+# What these say is for the log only.
+DETAILS: dict[type[Exception], str] = {
+    OperationalError: "try again in a moment",
+    ChildError: UNEXPECTED_DETAIL,
 }
 FULL = {errno.ENOSPC, errno.EDQUOT}
 
@@ -86,9 +95,9 @@ def _known(request: Request, error: Exception) -> JSONResponse:
     kind = next(kind for kind in type(error).__mro__ if kind in TABLE)
     status, title = TABLE[kind]
     code = CODES.get(kind) or str(getattr(error, "code", "error"))
-    if isinstance(error, OperationalError):
-        log.error("%s %s: the catalogue failed", request.method, request.url.path, exc_info=error)
-        return problem(status, code=code, title=title, detail="try again in a moment")
+    if kind in DETAILS:
+        log.error("%s %s: %s", request.method, request.url.path, title, exc_info=error)
+        return problem(status, code=code, title=title, detail=DETAILS[kind])
     return problem(status, code=code, title=title, detail=str(getattr(error, "detail", "") or error))
 
 

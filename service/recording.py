@@ -13,6 +13,11 @@ from worker.describe import Description
 
 ATTEMPTS = 5  # while vocabularies change
 
+# Codes beside those of worker.errors.Code.
+GAVE_UP = "gave_up"  # its process died again and again; also given by index.queue
+UNEXPECTED = "unexpected"  # a defect of ours
+UNEXPECTED_DETAIL = "the mesh could not be described, for a reason of our own; the log says more"
+
 
 def record_description(library: Library, job: Job, description: Description) -> Shape:
     """Store what was computed: files first, then everything else in one transaction.

@@ -15,7 +15,7 @@ from service.child import ChildError
 from service.describing import Describe, describe_files
 from service.library import Library
 from service.pool import ChildDied, PoolStopped
-from service.recording import record_description
+from service.recording import GAVE_UP, UNEXPECTED, UNEXPECTED_DETAIL, record_description
 from service.sweeping import sweep
 from worker.describe import Description
 from worker.errors import MeshError
@@ -168,14 +168,14 @@ class Worker:
             return self._retry(attempt, str(error))
         except ChildError as error:
             log.error("describing shape %s failed unexpectedly:\n%s", job.shape_id, error)
-            return self._fail(job, "unexpected", "the mesh could not be described, for a reason of our own")
+            return self._fail(job, UNEXPECTED, UNEXPECTED_DETAIL)
 
     def _retry(self, attempt: Attempt, reason: str) -> str | None:
         log.warning("shape %s, try %d: %s", attempt.job.shape_id, attempt.tries, reason)
         if attempt.tries < TRIES:
             self._submit(attempt.job, attempt.tries + 1)
             return None
-        return self._fail(attempt.job, "gave_up", f"{reason}, {attempt.tries} times in a row")
+        return self._fail(attempt.job, GAVE_UP, f"{reason}, {attempt.tries} times in a row")
 
     def _fail(self, job: Job, code: str, detail: str) -> str:
         self._library.catalogue.record_failed(job, code=code, detail=detail)

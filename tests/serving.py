@@ -14,6 +14,7 @@ from fakes import describe_quickly, fake_signatures
 
 from index.vocabulary import Vocabulary, learn_vocabulary
 from service.app import create_app
+from service.dependencies import Services
 from service.describing import Describe
 from service.library import Library
 from service.settings import Settings
@@ -46,8 +47,8 @@ def open_fake_library(settings: Settings) -> Library:
 class Serving:
     """A running service and a client of it."""
 
-    def __init__(self, server: uvicorn.Server, library: Library, client: httpx.Client) -> None:
-        self.server, self.library, self.client = server, library, client
+    def __init__(self, services: Services, client: httpx.Client) -> None:
+        self.library, self.turnstile, self.client = services.library, services.turnstile, client
 
     def add(self, files: dict[str, bytes], wait: float = 60, **fields: str) -> httpx.Response:
         """Upload files."""
@@ -90,7 +91,7 @@ def serving(
         wait_until(lambda: server.started or not thread.is_alive())
         port = server.servers[0].sockets[0].getsockname()[1]
         with httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=PATIENCE) as client:
-            yield Serving(server, app.state.services.library, client)
+            yield Serving(app.state.services, client)
     finally:
         server.should_exit = True
         thread.join()

@@ -8,9 +8,9 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from uuid import UUID
 
-import httpx
 import pytest
 from fakes import coloured_triangle
+from problems import problem
 from serving import Serving, serving, settings_for
 
 OBJ = b"mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\nf 1/1 2/1 4/1\n"
@@ -39,17 +39,6 @@ def kept(running: Serving) -> list[str]:
         for path in folder.rglob("*")
         if path.is_file() and path.name[0] != "."
     ]
-
-
-def problem(answer: httpx.Response, status: int, code: str) -> str:
-    """Check that an answer is a problem of RFC 9457; return its detail."""
-    assert answer.status_code == status, answer.text
-    assert answer.headers["content-type"] == "application/problem+json"
-    body = answer.json()
-    assert set(body) >= {"type", "title", "status", "detail", "code"}
-    assert (body["status"], body["code"]) == (status, code)
-    assert body["type"] == f"urn:faience:problem:{code}"
-    return str(body["detail"])
 
 
 def test_a_new_shape_is_accepted_and_becomes_ready(service: Serving) -> None:
