@@ -1,5 +1,5 @@
 # Every command sets up what it needs; `make setup` alone prepares .venv.
-.PHONY: setup run test check lock
+.PHONY: setup run test check lock vocabulary retrieval
 VENV := .venv
 PYTHON := $(VENV)/bin/python
 STAMP := $(VENV)/.complete
@@ -27,3 +27,11 @@ check: setup
 # Writes the exact versions now in .venv; run after changing pyproject.toml and installing.
 lock:
 	$(VENV)/bin/pip list --format=freeze --exclude faience --exclude pip > requirements.lock
+
+# Learns the vocabulary that ships with the project again, from shapes made by its own code.
+vocabulary: setup
+	$(PYTHON) -m benchmarks.default_vocabulary
+
+# Prints how well poses find their model: make retrieval DATA=folder
+retrieval: setup
+	$(PYTHON) -m benchmarks.retrieval $(DATA)
