@@ -31,7 +31,7 @@ def tube(centres: FloatArray, radii: FloatArray, columns: int) -> FloatArray:
     side = np.cross(ahead, centres - centres.mean(0) + 1e-9)
     side /= np.linalg.norm(side, axis=1, keepdims=True)
     over = np.cross(side, ahead)
-    angles = 2 * np.pi * np.arange(columns) / columns
+    angles = -2 * np.pi * np.arange(columns) / columns
     rings = side[:, None] * np.cos(angles)[:, None] + over[:, None] * np.sin(angles)[:, None]
     result: FloatArray = centres[:, None] + radii[:, None, None] * rings
     return result

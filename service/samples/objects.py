@@ -28,7 +28,7 @@ def vase(generator: Random) -> Shell:
     inside = (outside - np.stack([wall, np.zeros(70)], 1))[::-1]
     inside[-1] = (0.02, 0.05)
     profile = np.vstack([[[0.001, 0.0]], outside, inside])
-    return _swept(lathe(profile, 56), random_coat(generator), closed=True)
+    return _swept(lathe(profile[::-1], 56), random_coat(generator), closed=True)
 
 
 def knot(generator: Random) -> Shell:
