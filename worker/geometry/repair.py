@@ -11,7 +11,6 @@ from worker.errors import Code, MeshError
 from worker.geometry.orientation import face_edges, flipped_faces, undirected
 from worker.reading.mesh import Mesh
 
-LARGEST = 1e100  # coordinates beyond this overflow when multiplied
 FLATNESS = 1e-13  # a triangle is empty where twice its area is this part of its longest edge squared
 
 
@@ -38,7 +37,7 @@ def repair(mesh: Mesh) -> Repaired:
     Raises
     ------
     MeshError
-        NO_FACES, NON_FINITE (coordinates too large to compute with), ZERO_AREA
+        NO_FACES, ZERO_AREA
     """
     if not len(mesh.faces):
         raise MeshError(Code.NO_FACES, "The mesh holds no faces.")
@@ -65,10 +64,6 @@ def repair(mesh: Mesh) -> Repaired:
 
 def _centred(vertices: FloatArray) -> FloatArray:
     """Subtract the mean: far from the origin, areas would drown in rounding."""
-    if np.abs(vertices).max(initial=0.0) > LARGEST:
-        raise MeshError(
-            Code.NON_FINITE, f"A coordinate is larger than {LARGEST:g}: too large to compute with."
-        )
     centred: FloatArray = vertices - vertices.mean(axis=0)
     return centred
 

@@ -24,6 +24,7 @@ _OPTIONS = {
     "-type": 1,
 }
 _NUMBER = re.compile(r"(?=.{1,40}$)[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$")
+_MOST = 1e6  # of a scale or an offset; more shows nothing but noise
 _OPTIONAL = {"-mm", "-o", "-s", "-t"}  # their second and third number may be left out
 
 
@@ -142,6 +143,6 @@ def _take_options(words: list[re.Match[str]], options: dict[str, list[str]]) -> 
 
 
 def _pair(words: list[str] | None, default: float) -> tuple[float, float]:
-    numbers = [float(word) for word in words or []][:2]
+    numbers = [min(max(float(word), -_MOST), _MOST) for word in words or []][:2]
     u, v = numbers + [default] * (2 - len(numbers))
     return u, v

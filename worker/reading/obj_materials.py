@@ -49,7 +49,7 @@ def find_materials(
     if undefined and missing and not allow_untextured:
         raise MeshError(
             Code.MISSING_TEXTURE,
-            f"“{named_by}” names the material file “{missing[0]}”, which was not sent; "
+            f"“{named_by}” names the material file “{missing[0][:200]}”, which was not sent; "
             "send it with the mesh, or allow the mesh without its texture.",
         )
     return materials, [

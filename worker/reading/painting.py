@@ -112,7 +112,7 @@ def find_texture(texture: TextureMap, files: SentFiles, allow_untextured: bool) 
     if found is None and not allow_untextured:
         raise MeshError(
             Code.MISSING_TEXTURE,
-            f"“{texture.named_by}” names the image “{texture.reference}”, which was not sent; "
+            f"“{texture.named_by}” names the image “{texture.reference[:200]}”, which was not sent; "
             "send it with the mesh, or allow the mesh without its texture.",
         )
     return found

@@ -23,9 +23,9 @@ def read_binary(data: bytes, header: Header) -> Body:
     """
     body: Body = {}
     position = header.body
-    for element in header.elements:
-        table, position = _read_table(data, position, element, header.byte_order)
-        body[element.name] = table
+    with np.errstate(invalid="ignore"):  # NaN of any kind is for the caller to judge
+        for element in header.elements:
+            body[element.name], position = _read_table(data, position, element, header.byte_order)
     if position < len(data):
         raise MeshError(
             Code.TRAILING_DATA,

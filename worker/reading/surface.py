@@ -8,6 +8,8 @@ import numpy as np
 from worker.arrays import BoolArray, FloatArray, IntArray
 from worker.errors import Code, MeshError
 
+LARGEST = 1e100  # products of three larger numbers overflow
+
 
 @dataclass(frozen=True, kw_only=True)
 class TextureMap:
@@ -62,19 +64,19 @@ def check_indices(corners: IntArray, n_vertices: int, what: str = "vertex") -> N
 
 
 def check_finite(values: FloatArray, what: str) -> None:
-    """Refuse numbers that are not finite.
+    """Refuse rows of numbers that are not finite, or too large to be multiplied.
 
     Raises
     ------
     MeshError
         NON_FINITE
     """
-    wrong = ~np.isfinite(values).all(axis=-1)
+    wrong = ~(np.abs(values) <= LARGEST).all(axis=-1)  # NaN is not smaller than anything
     if wrong.any():
         raise MeshError(
             Code.NON_FINITE,
-            f"Expected finite {what}, but {int(wrong.sum())} of {wrong.size} hold NaN or infinity, "
-            f"the first is number {int(np.argmax(wrong)) + 1}.",
+            f"Expected finite {what}, but {int(wrong.sum())} of {wrong.size} hold NaN, infinity or a number "
+            f"beyond {LARGEST:g}; the first is number {int(np.argmax(wrong)) + 1}.",
         )
 
 
