@@ -1,14 +1,14 @@
 """What the headers of an upload's files tell, without reading the mesh itself."""
 
+from worker.reading.assembling import find_texture
+from worker.reading.contents import TextureMap
 from worker.reading.limits import Limits
 from worker.reading.obj import check_text
 from worker.reading.obj_materials import find_materials
 from worker.reading.obj_scan import named_libraries, used_materials
-from worker.reading.painting import find_texture
 from worker.reading.ply import has_texture_coordinates, texture_maps
 from worker.reading.ply_header import check_promise, read_header
 from worker.reading.references import SentFiles
-from worker.reading.surface import TextureMap
 from worker.reading.textures import check_image
 
 

@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator
 
 from worker.errors import Code, MeshError
-from worker.reading.surface import Material, TextureMap
+from worker.reading.contents import Material, TextureMap
 
 # Options that may stand before or after the name of an image, and the most arguments each takes.
 _OPTIONS = {

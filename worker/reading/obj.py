@@ -7,10 +7,10 @@ import numpy as np
 
 from worker.arrays import BoolArray, FloatArray, IntArray
 from worker.errors import Code, MeshError
+from worker.reading.contents import Material, Surface, check_finite, check_indices
 from worker.reading.obj_lines import Block, is_obj, read_block
 from worker.reading.obj_materials import find_materials
 from worker.reading.references import SentFiles
-from worker.reading.surface import Material, Surface, check_finite, check_indices
 from worker.reading.words import blocks, with_line_feeds
 
 

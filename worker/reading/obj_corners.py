@@ -6,7 +6,7 @@ import numpy as np
 
 from worker.arrays import BoolArray, IntArray
 from worker.errors import Code, MeshError
-from worker.reading.numbers import parse_integers
+from worker.reading.parsing import parse_integers
 from worker.reading.words import Words
 
 

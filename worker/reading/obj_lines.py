@@ -7,8 +7,8 @@ import numpy as np
 from worker.arrays import BoolArray, FloatArray, IntArray
 from worker.errors import Code, MeshError
 from worker.reading.mtl import decode_text
-from worker.reading.numbers import parse_floats
 from worker.reading.obj_corners import Corners, read_corners
+from worker.reading.parsing import parse_floats
 from worker.reading.words import Words, split_words
 
 _KNOWN = {b"v", b"vt", b"vn", b"vp", b"f", b"fo", b"l", b"p", b"o", b"g", b"s", b"mtllib", b"usemtl"}

@@ -4,9 +4,9 @@ import re
 from collections.abc import Iterable, Set
 
 from worker.errors import Code, MeshError
+from worker.reading.contents import Material, among
 from worker.reading.mtl import read_mtl
 from worker.reading.references import SentFiles
-from worker.reading.surface import Material, among
 
 
 def find_materials(

@@ -6,12 +6,12 @@ import numpy as np
 
 from worker.arrays import BoolArray, FloatArray, IntArray
 from worker.errors import Code, MeshError
+from worker.reading.contents import Material, Surface, TextureMap, check_finite, check_indices
 from worker.reading.limits import Limits
 from worker.reading.ply_ascii import read_ascii
 from worker.reading.ply_binary import read_binary
 from worker.reading.ply_columns import Body, Lists, Table
 from worker.reading.ply_header import INDEX_NAMES, Header, check_promise, read_header
-from worker.reading.surface import Material, Surface, TextureMap, check_finite, check_indices
 
 _COLOUR_NAMES = (
     ("red", "green", "blue"),

@@ -6,7 +6,7 @@ import numpy as np
 
 from worker.arrays import BoolArray, FloatArray, IntArray
 from worker.errors import Code, MeshError
-from worker.reading.numbers import parse_floats
+from worker.reading.parsing import parse_floats
 from worker.reading.ply_columns import Body, Lists, Table, check_counts, positions, truncated
 from worker.reading.ply_header import Element, Header
 from worker.reading.words import blocks, split_words, with_line_feeds

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 from worker.errors import Code, MeshError
+from worker.reading.contents import among
 from worker.reading.limits import Limits
-from worker.reading.surface import among
 
 TYPES = dict[str, str](
     char="i1", uchar="u1", short="i2", ushort="u2", int="i4", uint="u4", float="f4", double="f8"

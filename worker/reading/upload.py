@@ -4,12 +4,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from worker.reading.archive import list_archive, unpack
+from worker.reading.assembling import assemble
 from worker.reading.inspection import inspect_files
 from worker.reading.limits import Limits
 from worker.reading.mesh import Mesh
 from worker.reading.obj import read_obj
 from worker.reading.opening import archive_name, mesh_name, sent_files
-from worker.reading.painting import paint
 from worker.reading.ply import read_ply
 from worker.reading.references import SentFiles
 
@@ -46,7 +46,7 @@ def read_mesh(upload: Upload, limits: Limits = Limits()) -> Mesh:
         surface = read_ply(files[name], name, limits)
     else:
         surface = read_obj(files[name], name, files, allow_untextured=upload.allow_untextured)
-    return paint(surface, files, allow_untextured=upload.allow_untextured, limits=limits)
+    return assemble(surface, files, allow_untextured=upload.allow_untextured, limits=limits)
 
 
 def inspect_upload(upload: Upload, limits: Limits = Limits()) -> None:

@@ -6,11 +6,11 @@ import numpy as np
 
 from worker.arrays import BoolArray, ByteArray, FloatArray, IntArray
 from worker.errors import Code, MeshError
+from worker.reading.contents import Material, Surface, TextureMap, among
 from worker.reading.limits import Limits
 from worker.reading.mesh import Colour, Mesh
 from worker.reading.polygons import triangulate
 from worker.reading.references import SentFiles
-from worker.reading.surface import Material, Surface, TextureMap, among
 from worker.reading.textures import read_image
 
 NO_COLOUR = 0.5  # the grey of faces that have no colour
@@ -25,7 +25,7 @@ class _Textures:
     warnings: tuple[str, ...]
 
 
-def paint(surface: Surface, files: SentFiles, *, allow_untextured: bool, limits: Limits) -> Mesh:
+def assemble(surface: Surface, files: SentFiles, *, allow_untextured: bool, limits: Limits) -> Mesh:
     """Split the polygons and give every triangle the richest colour that the file has for it.
 
     An image comes before vertex colours, these before face colours, these before the colour of a material.
