@@ -1,6 +1,7 @@
 """A real server in a thread, so that tests speak HTTP over sockets."""
 
 import contextlib
+import functools
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -35,6 +36,7 @@ def settings_for(folder: Path, **changes: Any) -> Settings:
     return Settings(**{**quick, **changes})
 
 
+@functools.cache
 def fake_vocabulary(seed: int = 0) -> Vocabulary:
     samples = [fake_signatures(level) for level in np.linspace(0, 1, 7)]
     return learn_vocabulary(samples, Parameters().fingerprint(), seed=seed)

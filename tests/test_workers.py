@@ -1,0 +1,226 @@
+"""Every job ends, and one bad mesh harms only itself."""
+
+import threading
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor, Future
+from pathlib import Path
+from typing import Any
+
+import pytest
+from fakes import coloured_triangle, describe_quickly
+from serving import open_fake_library, settings_for, wait_until
+
+from index.errors import CatalogueBusy, StorageFull
+from index.shapes import Shape, Status
+from service.app import child_limits
+from service.library import Library
+from service.pool import ProcessPerJob
+from service.retrieval import accept_upload, remove_shape
+from service.submissions import receive_paths
+from service.workers import Worker
+
+
+@pytest.fixture
+def library(tmp_path: Path) -> Iterator[Library]:
+    settings = settings_for(tmp_path / "library", lease_seconds=0.5, job_seconds=3)
+    opened = open_fake_library(settings)
+    yield opened
+    opened.close()
+
+
+@pytest.fixture
+def pool(library: Library) -> Iterator[ProcessPerJob]:
+    made = ProcessPerJob(slots=2, limits=child_limits(library.settings))
+    yield made
+    made.shutdown(cancel_futures=True)
+
+
+class SameThread(Executor):
+    """Runs a job at once, without a process."""
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """Run it."""
+        future: Future[Any] = Future()
+        try:
+            future.set_result(fn(*args, **kwargs))
+        except Exception as error:  # noqa: BLE001 - this is what executors do
+            future.set_exception(error)
+        return future
+
+
+class Working:
+    """A worker in a thread."""
+
+    def __init__(self, library: Library, executor: Executor, **options: Any) -> None:
+        self.outcomes: list[str] = []
+        self.worker = Worker(
+            library,
+            executor,
+            slots=2,
+            **{
+                "describe": describe_quickly,
+                "observe": lambda outcome, _: self.outcomes.append(outcome),
+                **options,
+            },
+        )
+        self.thread = threading.Thread(target=self.worker.run)
+
+    def __enter__(self) -> "Working":
+        """Start it."""
+        self.thread.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Stop it; it must end by itself."""
+        self.worker.stop()
+        self.thread.join()
+
+
+def accept(library: Library, name: str, content: bytes | None = None) -> str:
+    path = library.incoming.folder / name
+    path.write_bytes(content or coloured_triangle())
+    shape, _ = accept_upload(library, receive_paths({name: path}))
+    path.unlink()
+    return shape.id
+
+
+def settled(library: Library, shape_id: str) -> Shape:
+    wait_until(lambda: library.catalogue.get(shape_id).status in (Status.READY, Status.FAILED))
+    return library.catalogue.get(shape_id)
+
+
+@pytest.mark.parametrize(
+    ("name", "code"),
+    [
+        ("crash.ply", "gave_up"),
+        ("hang.ply", "too_complex"),
+        ("eat.ply", "too_complex"),
+        ("defect.ply", "unexpected"),
+    ],
+)
+def test_a_child_that_goes_wrong_costs_its_own_job_alone(
+    library: Library, pool: ProcessPerJob, name: str, code: str
+) -> None:
+    good = [accept(library, "first.ply", coloured_triangle(1))]
+    bad = accept(library, name)
+    good += [accept(library, f"{number}.ply", coloured_triangle(number)) for number in (2, 3)]
+    with Working(library, pool) as working:
+        failed = settled(library, bad)
+        assert (failed.status, failed.error_code) == (Status.FAILED, code)
+        assert [settled(library, shape_id).status for shape_id in good] == [Status.READY] * 3
+    assert sorted(working.outcomes) == sorted([code, "ready", "ready", "ready"])
+
+
+def test_a_detail_shows_no_traceback(library: Library) -> None:
+    bad = accept(library, "defect.ply")
+    pool = ProcessPerJob(slots=1, limits=child_limits(library.settings))
+    with Working(library, pool):
+        detail = settled(library, bad).error_detail or ""
+    pool.shutdown()
+    assert "Traceback" not in detail
+    assert "KeyError" not in detail
+
+
+def test_a_job_of_a_dead_worker_is_taken_up_after_its_lease(library: Library, pool: ProcessPerJob) -> None:
+    shape_id = accept(library, "a.ply")
+    assert library.queue.claim("killed", 0.3) is not None  # and nothing is ever heard of it again
+    with Working(library, pool):
+        assert settled(library, shape_id).status == Status.READY
+
+
+def test_a_long_job_keeps_its_lease(library: Library) -> None:
+    shape_id = accept(library, "a.ply")
+    release = threading.Event()
+
+    class Slow(SameThread):
+        def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+            future: Future[Any] = Future()
+
+            def run() -> None:
+                release.wait()
+                future.set_result(fn(*args, **kwargs))
+
+            threading.Thread(target=run, daemon=True).start()
+            return future
+
+    with Working(library, Slow()):
+        wait_until(lambda: library.catalogue.get(shape_id).status == Status.PROCESSING)
+        end = time.monotonic() + 4 * library.settings.lease_seconds
+        while time.monotonic() < end:
+            assert library.queue.claim("thief", 1) is None
+            time.sleep(0.1)
+        release.set()
+        assert settled(library, shape_id).status == Status.READY
+
+
+def test_stopping_gives_unfinished_jobs_back_at_once(library: Library, pool: ProcessPerJob) -> None:
+    shape_id = accept(library, "hang.ply")
+    with Working(library, pool):
+        wait_until(lambda: library.catalogue.get(shape_id).status == Status.PROCESSING)
+    assert library.catalogue.get(shape_id).status == Status.QUEUED
+    job = library.queue.claim("next", 1)
+    assert job is not None
+    assert job.attempts == 1  # the one that was stopped does not count
+
+
+def test_a_shape_removed_while_it_is_described_leaves_no_files(library: Library) -> None:
+    removed = accept(library, "a.ply")
+    other = accept(library, "b.ply", coloured_triangle(9))
+
+    def describe(paths: dict[str, Path], *args: Any) -> Any:
+        description = describe_quickly(paths, *args)
+        if "a.ply" in paths:
+            remove_shape(library, removed)
+        return description
+
+    with Working(library, SameThread(), describe=describe):
+        assert settled(library, other).status == Status.READY
+    assert list(library.files.keys(f"shapes/{removed}")) == []
+    assert library.catalogue.get_many([removed]) == {}
+
+
+def test_a_full_disk_delays_a_result_and_loses_nothing(
+    library: Library, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shape_id = accept(library, "a.ply")
+    put, refusals = library.files.put, [StorageFull("full"), CatalogueBusy("locked")]
+
+    def sometimes_full(key: str, data: bytes) -> None:
+        if refusals:
+            raise refusals.pop()
+        put(key, data)
+
+    monkeypatch.setattr(library.files, "put", sometimes_full)
+    with Working(library, SameThread()):
+        assert settled(library, shape_id).status == Status.READY
+    assert refusals == []
+
+
+def test_an_error_of_the_queue_does_not_end_the_worker(
+    library: Library, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shape_id = accept(library, "a.ply")
+    claim, errors = library.queue.claim, [OSError("away"), OSError("still away")]
+
+    def sometimes_away(worker: str, lease_seconds: float) -> Any:
+        if errors:
+            raise errors.pop()
+        return claim(worker, lease_seconds)
+
+    monkeypatch.setattr(library.queue, "claim", sometimes_away)
+    with Working(library, SameThread()):
+        assert settled(library, shape_id).status == Status.READY
+
+
+def test_two_workers_never_describe_the_same_shape_twice(library: Library) -> None:
+    counted: list[str] = []
+
+    def describe(paths: dict[str, Path], *args: Any) -> Any:
+        counted.append(next(iter(paths)))
+        return describe_quickly(paths, *args)
+
+    ids = [accept(library, f"{number}.ply", coloured_triangle(number)) for number in range(12)]
+    with Working(library, SameThread(), describe=describe), Working(library, SameThread(), describe=describe):
+        assert {settled(library, shape_id).status for shape_id in ids} == {Status.READY}
+    assert sorted(counted) == sorted(f"{number}.ply" for number in range(12))
