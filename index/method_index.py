@@ -125,9 +125,11 @@ class MethodIndex:
             return None
         if vectors is None:
             return None
-        held = zip(header.ids, header.revisions, strict=True)
-        current = {shape_id for shape_id, revision in held if revisions.get(shape_id) == revision}
-        vectors.remove(set(header.ids) - current)
+        held = dict(zip(header.ids, header.revisions, strict=True))
+        if held == revisions:
+            self._saved = state
+        current = {shape_id for shape_id in held if revisions.get(shape_id) == held[shape_id]}
+        vectors.remove(held.keys() - current)
         return put_all(self._gather(state, but=current), vectors)
 
     def _fits(self, header: Header, state: CatalogueState) -> bool:
