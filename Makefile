@@ -1,5 +1,5 @@
 # Every command sets up what it needs; `make setup` alone prepares .venv.
-.PHONY: setup run test check lock vocabulary retrieval
+.PHONY: setup run test check lock vocabulary retrieval picture
 VENV := .venv
 PYTHON := $(VENV)/bin/python
 STAMP := $(VENV)/.complete
@@ -35,3 +35,7 @@ vocabulary: setup
 # Prints how well poses find their model: make retrieval DATA=folder
 retrieval: setup
 	$(PYTHON) -m benchmarks.retrieval $(DATA)
+
+# Draws the picture of the README.
+picture: setup
+	$(PYTHON) -m benchmarks.picture

@@ -9,14 +9,11 @@ from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
 
-from threadpoolctl import threadpool_limits
-
+from benchmarks.retrieval import describe_files
 from index.vocabulary import Vocabulary, learn_vocabulary
 from service.samples import random_creatures
 from worker.arrays import SingleArray
-from worker.describe import describe
 from worker.parameters import Parameters
-from worker.reading.upload import Upload
 
 TARGET = Path(__file__).parents[1] / "index" / "default-vocabulary.npz"
 SEED = 2011
@@ -52,8 +49,7 @@ def _counted(
 
 
 def _signatures(files: Mapping[str, bytes]) -> Mapping[str, SingleArray]:
-    with threadpool_limits(1):
-        return describe(Upload(files=files)).signatures
+    return describe_files(files).signatures
 
 
 if __name__ == "__main__":

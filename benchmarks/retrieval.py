@@ -1,7 +1,7 @@
 """Print how well each method finds a model's rest pose from its other poses, among all others.
 
-The folder holds `posed/NAME/pose_XX.ply` (pose_00 is the rest pose) and `clutter/*.ply`. The queries are all other
-poses; the gallery holds the rest poses and the clutter. Run by `make retrieval`.
+The folder holds `posed/NAME/pose_XX.ply` (pose_00 is the rest pose) and `clutter/*.ply`. The queries are all
+other poses; the gallery holds the rest poses and the clutter. Run by `make retrieval`.
 """
 
 import argparse
@@ -58,7 +58,7 @@ def describe_folder(folder: Path, workers: int) -> list[Described]:
     """Describe every mesh of the folder, in processes."""
     paths = [*sorted(folder.glob("posed/*/*.ply")), *sorted(folder.glob("clutter/*.ply"))]
     with ProcessPoolExecutor(workers, mp_context=get_context("forkserver")) as pool:
-        described = list(pool.map(describe_file, paths))
+        described = list(pool.map(describe_files, ({path.name: path.read_bytes()} for path in paths)))
     return [
         Described(
             model=str(path.parent if path.parent.parent.name == "posed" else path),
@@ -70,10 +70,10 @@ def describe_folder(folder: Path, workers: int) -> list[Described]:
     ]
 
 
-def describe_file(path: Path) -> Description:
-    """Describe one PLY file on one thread."""
+def describe_files(files: Mapping[str, bytes]) -> Description:
+    """Describe one mesh on one thread."""
     with threadpool_limits(1):
-        return describe(Upload(files={path.name: path.read_bytes()}))
+        return describe(Upload(files=files))
 
 
 def mean_reciprocal_ranks(meshes: Sequence[Described], vocabulary: Vocabulary) -> dict[str, float]:
