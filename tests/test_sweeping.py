@@ -1,0 +1,38 @@
+"""Only what nobody needs is swept."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from fakes import coloured_triangle
+from serving import open_fake_library, settings_for
+
+from service.library import Library
+from service.retrieval import accept_upload
+from service.submissions import receive_paths
+from service.sweeping import sweep
+
+
+@pytest.fixture
+def library(tmp_path: Path) -> Iterator[Library]:
+    opened = open_fake_library(settings_for(tmp_path / "library"))
+    yield opened
+    opened.close()
+
+
+def test_orphans_go_and_everything_that_a_shape_needs_stays(library: Library, tmp_path: Path) -> None:
+    path = tmp_path / "a.ply"
+    path.write_bytes(coloured_triangle())
+    shape, _ = accept_upload(library, receive_paths({"a.ply": path}))
+    library.files.put(f"shapes/{shape.id}/thumbnail.png", b"x")
+    needed = set(library.files.keys())
+    library.files.put("uploads/killed/0", b"never got a row")
+    library.files.put("shapes/removed/preview.glb", b"its row is gone")
+    assert sweep(library, older_than=0) == 2
+    assert set(library.files.keys()) == needed
+
+
+def test_young_files_may_belong_to_an_upload_under_way(library: Library) -> None:
+    library.files.put("uploads/under-way/0", b"its row follows")
+    assert sweep(library) == 0
+    assert list(library.files.keys()) == ["uploads/under-way/0"]
