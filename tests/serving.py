@@ -11,7 +11,6 @@ from typing import Any
 import httpx
 import numpy as np
 import uvicorn
-from fakes import describe_quickly, fake_signatures
 
 from index.vocabulary import Vocabulary, learn_vocabulary
 from service.app import create_app
@@ -19,6 +18,7 @@ from service.dependencies import Services
 from service.describing import Describe
 from service.library import Library
 from service.settings import Settings
+from tests.fakes import describe_quickly, fake_signatures
 from worker.parameters import Parameters
 
 PATIENCE = 120.0  # seconds until a test that would hang fails instead

@@ -3,9 +3,10 @@
 from collections.abc import Iterator
 
 import pytest
-from problems import problem
 from pydantic import SecretStr
-from serving import Serving, serving, settings_for
+
+from tests.problems import problem
+from tests.serving import Serving, serving, settings_for
 
 KEYS = (SecretStr("first-key"), SecretStr("second-key"))
 

@@ -8,18 +8,18 @@ from collections.abc import Iterator
 from concurrent.futures import Executor
 from pathlib import Path
 
-import children
 import pytest
 
 from service.child import ChildError, ChildLimits
 from service.pool import ChildDied, PoolStopped, ProcessPerJob
+from tests import children
 from worker.errors import Code, MeshError
 
 LIMITS = ChildLimits(memory_bytes=2 * 2**30, cpu_seconds=60, wall_seconds=120)
 TIGHT = ChildLimits(memory_bytes=2**30, cpu_seconds=1, wall_seconds=120)
 IMPATIENT = ChildLimits(memory_bytes=2**30, cpu_seconds=60, wall_seconds=0.3)
 HERE = Path(__file__).parent
-ENVIRONMENT = {**os.environ, "PYTHONPATH": os.pathsep.join([str(HERE), str(HERE.parent)])}
+ENVIRONMENT = {**os.environ, "PYTHONPATH": str(HERE.parent)}
 
 
 @pytest.fixture
@@ -129,7 +129,7 @@ def test_a_stopped_pool_kills_what_runs_and_says_so(tmp_path: Path) -> None:
 
 def test_children_compute_with_one_thread_whatever_the_service_does() -> None:
     script = (
-        "import children, test_pool\n"
+        "from tests import children, test_pool\n"
         "from service.pool import ProcessPerJob\n"
         "pool = ProcessPerJob(slots=1, limits=test_pool.LIMITS)\n"
         "print(pool.submit(children.threads_of_numpy).result())\n"
@@ -144,7 +144,8 @@ def test_children_compute_with_one_thread_whatever_the_service_does() -> None:
 def test_a_child_ends_when_its_service_is_killed(tmp_path: Path) -> None:
     mark = tmp_path / "pid"
     script = (
-        "import pathlib, children, test_pool\n"
+        "import pathlib\n"
+        "from tests import children, test_pool\n"
         "from service.pool import ProcessPerJob\n"
         "pool = ProcessPerJob(slots=1, limits=test_pool.LIMITS)\n"
         f"pool.submit(children.write_identity_and_hang, pathlib.Path({str(mark)!r})).result()\n"
@@ -162,7 +163,7 @@ def test_a_command_is_not_imported_again_by_every_child(tmp_path: Path) -> None:
     script.write_text(
         "import sys\n"
         "open(sys.argv[1], 'a').write('imported ')\n"
-        "import children, test_pool\n"
+        "from tests import children, test_pool\n"
         "from service.pool import ProcessPerJob\n"
         "if __name__ == '__main__':\n"
         "    pool = ProcessPerJob(slots=1, limits=test_pool.LIMITS)\n"

@@ -4,8 +4,6 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from fakes import coloured_triangle, describe_quickly
-from serving import open_fake_library, settings_for
 
 from index.errors import LeaseLost
 from index.jobs import Job
@@ -15,6 +13,8 @@ from service.recording import record_description
 from service.retrieval import accept_upload, remove_shape
 from service.storage import PREVIEW, SIGNATURES, THUMBNAIL, load_signatures
 from service.submissions import receive_paths
+from tests.fakes import coloured_triangle, describe_quickly
+from tests.serving import open_fake_library, settings_for
 from worker.describe import Description
 
 

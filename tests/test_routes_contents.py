@@ -3,9 +3,10 @@
 from collections.abc import Iterator
 
 import pytest
-from fakes import coloured_triangle
-from problems import problem
-from serving import Serving, serving, settings_for
+
+from tests.fakes import coloured_triangle
+from tests.problems import problem
+from tests.serving import Serving, serving, settings_for
 
 
 @pytest.fixture(scope="module")

@@ -6,8 +6,9 @@ from typing import Any
 
 import httpx
 import pytest
-from fakes import coloured_triangle
-from serving import Serving, serving, settings_for
+
+from tests.fakes import coloured_triangle
+from tests.serving import Serving, serving, settings_for
 
 
 @pytest.fixture

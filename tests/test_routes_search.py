@@ -4,9 +4,10 @@ import json
 from collections.abc import Iterator
 
 import pytest
-from fakes import coloured_triangle
-from problems import problem
-from serving import Serving, serving, settings_for
+
+from tests.fakes import coloured_triangle
+from tests.problems import problem
+from tests.serving import Serving, serving, settings_for
 
 LEVELS = (10, 60, 130, 250)  # of red; the fake description orders shapes by it
 

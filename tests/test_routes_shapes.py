@@ -9,9 +9,10 @@ from pathlib import Path
 from uuid import UUID
 
 import pytest
-from fakes import coloured_triangle
-from problems import problem
-from serving import Serving, serving, settings_for
+
+from tests.fakes import coloured_triangle
+from tests.problems import problem
+from tests.serving import Serving, serving, settings_for
 
 OBJ = b"mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\nf 1/1 2/1 4/1\n"
 

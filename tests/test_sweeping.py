@@ -4,13 +4,13 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from fakes import coloured_triangle
-from serving import open_fake_library, settings_for
 
 from service.library import Library
 from service.retrieval import accept_upload
 from service.submissions import receive_paths
 from service.sweeping import sweep
+from tests.fakes import coloured_triangle
+from tests.serving import open_fake_library, settings_for
 
 
 @pytest.fixture

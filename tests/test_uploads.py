@@ -7,9 +7,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from fakes import coloured_triangle
-from problems import problem
-from serving import Serving, serving, settings_for, wait_until
+
+from tests.fakes import coloured_triangle
+from tests.problems import problem
+from tests.serving import Serving, serving, settings_for, wait_until
 
 HEAD = (
     "POST /v1/shapes HTTP/1.1\r\nHost: x\r\nContent-Type: multipart/form-data; boundary=b0\r\n"

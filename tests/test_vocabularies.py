@@ -6,8 +6,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from fakes import coloured_triangle, describe_quickly
-from serving import fake_vocabulary, open_fake_library, settings_for
 
 from index.errors import BadVocabulary
 from index.shapes import Status
@@ -18,6 +16,8 @@ from service.retrieval import Question, accept_upload, find_similar
 from service.storage import load_signatures
 from service.submissions import receive_paths
 from service.vocabularies import NoVocabulary, active_vocabulary, adopt_vocabulary, learn_vocabulary
+from tests.fakes import coloured_triangle, describe_quickly
+from tests.serving import fake_vocabulary, open_fake_library, settings_for
 from worker.parameters import Parameters
 
 

@@ -8,8 +8,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from fakes import coloured_triangle, describe_quickly
-from serving import open_fake_library, settings_for, wait_until
 
 from index.errors import CatalogueBusy, StorageFull
 from index.shapes import Shape, Status
@@ -19,6 +17,8 @@ from service.pool import ProcessPerJob
 from service.retrieval import accept_upload, remove_shape
 from service.submissions import receive_paths
 from service.workers import Worker
+from tests.fakes import coloured_triangle, describe_quickly
+from tests.serving import open_fake_library, settings_for, wait_until
 
 
 @pytest.fixture
