@@ -79,7 +79,7 @@ def parse_integers(words: Words) -> IntArray:
 
 def _parse_whole(words: Words) -> IntArray:
     text = _plain_text(words, _PLAIN_WHOLE)
-    if text is not None and (words.ends - words.starts).max() <= 18:
+    if text is not None and _are_plain(words):
         try:
             values: IntArray = np.fromstring(text, dtype=np.int64, sep=" ")
         except ValueError:
@@ -89,6 +89,12 @@ def _parse_whole(words: Words) -> IntArray:
     return np.array(
         [_parse_integer(words, position) for position in range(words.starts.size)], dtype=np.int64
     )
+
+
+def _are_plain(words: Words) -> bool:
+    """Return whether no word is too long, or a sign alone, which numpy would take for 0."""
+    last = words.text[words.ends - 1]
+    return bool((words.ends - words.starts).max() <= 18 and (last >= ord("0")).all())
 
 
 def _plain_text(words: Words, plain: BoolArray) -> str | None:
