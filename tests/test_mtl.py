@@ -48,7 +48,9 @@ def test_materials_have_their_colour_and_image() -> None:
     assert found["b"].texture.named_by == "m.mtl"
 
 
-@pytest.mark.parametrize(("rest", "colour"), [("0.5", (0.5, 0.5, 0.5)), ("2 -1 0", (1.0, 0.0, 0.0)), ("xyz 1", None)])
+@pytest.mark.parametrize(
+    ("rest", "colour"), [("0.5", (0.5, 0.5, 0.5)), ("2 -1 0", (1.0, 0.0, 0.0)), ("xyz 1", None)]
+)
 def test_a_colour_of_one_number_is_grey_and_others_are_cut_to_the_range(
     rest: str, colour: tuple[float, ...] | None
 ) -> None:
@@ -60,7 +62,10 @@ def test_a_material_without_a_name_is_left_out() -> None:
 
 
 def test_names_in_another_encoding_are_still_told_apart() -> None:
-    assert set(read_mtl(b"newmtl Terraind\x84k\nKd 1 1 1\nnewmtl T\xc3\xa9\n", "m.mtl")) == {"Terraind\x84k", "T\u00c3\u00a9"}
+    assert set(read_mtl(b"newmtl Terraind\x84k\nKd 1 1 1\nnewmtl T\xc3\xa9\n", "m.mtl")) == {
+        "Terraind\x84k",
+        "T\u00c3\u00a9",
+    }
 
 
 def test_a_colour_that_is_no_number_is_refused() -> None:

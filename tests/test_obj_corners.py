@@ -40,7 +40,13 @@ def test_slashes_without_numbers_name_nothing() -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "code"), [("1/2/3/4", Code.BAD_DATA), ("1.5", Code.BAD_NUMBER), ("a/1", Code.BAD_NUMBER), ("1/x", Code.BAD_NUMBER)]
+    ("text", "code"),
+    [
+        ("1/2/3/4", Code.BAD_DATA),
+        ("1.5", Code.BAD_NUMBER),
+        ("a/1", Code.BAD_NUMBER),
+        ("1/x", Code.BAD_NUMBER),
+    ],
 )
 def test_what_is_no_corner_is_refused(text: str, code: Code) -> None:
     with pytest.raises(MeshError, match="Line 1") as caught:

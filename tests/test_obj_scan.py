@@ -8,7 +8,17 @@ from tests.mesh_files import read
 from worker.errors import MeshError
 from worker.reading.obj_scan import named_libraries, used_materials
 
-LINES = ["usemtl a", "\tusemtl b c ", "usemtl", "f 1 2 3", " f 1/1 2/1 3/1", "#usemtl x", "o usemtl", "vt 0 0", "g"]
+LINES = [
+    "usemtl a",
+    "\tusemtl b c ",
+    "usemtl",
+    "f 1 2 3",
+    " f 1/1 2/1 3/1",
+    "#usemtl x",
+    "o usemtl",
+    "vt 0 0",
+    "g",
+]
 
 
 def test_libraries_are_found_and_comments_are_not() -> None:

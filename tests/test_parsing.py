@@ -9,7 +9,23 @@ from worker.errors import Code, MeshError
 from worker.reading.parsing import parse_floats, parse_integers
 from worker.reading.words import Words, split_words
 
-ODD = ["nan", "inf", "-inf", "1.#IND", "-1.#INF", "x", "1,5", "1_0", "0x1", "1e", "--1", "1-2", "1.2.3", "٣", "e"]
+ODD = [
+    "nan",
+    "inf",
+    "-inf",
+    "1.#IND",
+    "-1.#INF",
+    "x",
+    "1,5",
+    "1_0",
+    "0x1",
+    "1e",
+    "--1",
+    "1-2",
+    "1.2.3",
+    "٣",
+    "e",
+]
 
 
 @given(st.lists(st.floats(allow_nan=False).map(repr), max_size=20))

@@ -45,7 +45,9 @@ def test_colours_go_by_several_names(names: str) -> None:
 
 
 def test_face_colours_follow_their_polygon_through_the_split() -> None:
-    header = ply_header("ascii", 5, 2).replace(b"end_header", COLOURS.format("uchar").encode() + b"end_header")
+    header = ply_header("ascii", 5, 2).replace(
+        b"end_header", COLOURS.format("uchar").encode() + b"end_header"
+    )
     rows = b"".join(b"%d %d 0\n" % (x, y) for x, y, _ in POINTS.astype(int).tolist())
     mesh = read({"m.ply": header + rows + b"5 0 1 2 3 4 255 0 0\n3 0 1 2 0 255 0\n"})
     assert mesh.colour == Colour.FACE
@@ -54,7 +56,11 @@ def test_face_colours_follow_their_polygon_through_the_split() -> None:
 
 @pytest.mark.parametrize("level", ["nan", "inf"])
 def test_colours_that_are_no_numbers_are_dropped_with_a_warning(level: str) -> None:
-    data = ply_header("ascii", 3, 1, COLOURS.format("float")) + f"0 0 0 {level} 0 0\n".encode() * 3 + b"3 0 1 2\n"
+    data = (
+        ply_header("ascii", 3, 1, COLOURS.format("float"))
+        + f"0 0 0 {level} 0 0\n".encode() * 3
+        + b"3 0 1 2\n"
+    )
     mesh = read({"m.ply": data})
     assert mesh.colour == Colour.NONE
     assert "colours were dropped" in mesh.warnings[0]
@@ -62,7 +68,9 @@ def test_colours_that_are_no_numbers_are_dropped_with_a_warning(level: str) -> N
 
 def textured(names: str = "s t", comment: str = "t.png") -> bytes:
     extra = "".join(f"property float {name}\n" for name in names.split())
-    header = ply_header("ascii", 3, 1, extra).replace(b"element vertex", f"comment TextureFile {comment}\nelement vertex".encode())
+    header = ply_header("ascii", 3, 1, extra).replace(
+        b"element vertex", f"comment TextureFile {comment}\nelement vertex".encode()
+    )
     return header + b"0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n"
 
 
@@ -83,7 +91,9 @@ def test_faces_choose_their_texture_by_number_and_may_have_none() -> None:
     header = ply_header("ascii", 3, 4).replace(
         b"end_header", b"property list uchar float texcoord\nproperty int texnumber\nend_header"
     )
-    header = header.replace(b"element vertex", b"comment TextureFile a.png\ncomment TextureFile b.png\nelement vertex")
+    header = header.replace(
+        b"element vertex", b"comment TextureFile a.png\ncomment TextureFile b.png\nelement vertex"
+    )
     uvs = b" 6 0 0 1 0 0 1 "
     rows = b"3 0 1 2" + uvs + b"1\n3 0 1 2 0 0\n3 0 1 2" + uvs + b"-1\n3 0 1 2" + uvs + b"0\n"
     mesh = read({"m.ply": header + b"0 0 0\n1 0 0\n0 1 0\n" + rows, "a.png": png(), "b.png": png()})
@@ -91,21 +101,29 @@ def test_faces_choose_their_texture_by_number_and_may_have_none() -> None:
     assert len(mesh.textures) == 2
 
 
-@pytest.mark.parametrize(("uvs", "code"), [("4 0 0 1 0", Code.BAD_DATA), ("6 0 0 nan 0 0 1", Code.NON_FINITE)])
+@pytest.mark.parametrize(
+    ("uvs", "code"), [("4 0 0 1 0", Code.BAD_DATA), ("6 0 0 nan 0 0 1", Code.NON_FINITE)]
+)
 def test_texture_coordinates_are_two_finite_numbers_a_corner(uvs: str, code: Code) -> None:
-    header = ply_header("ascii", 3, 1).replace(b"end_header", b"property list uchar float texcoord\nend_header")
+    header = ply_header("ascii", 3, 1).replace(
+        b"end_header", b"property list uchar float texcoord\nend_header"
+    )
     assert refusal({"m.ply": header + b"0 0 0\n" * 3 + f"3 0 1 2 {uvs}\n".encode()}) == code
 
 
 def test_a_texture_covers_vertex_colours_and_says_so() -> None:
     data = textured().replace(b"element face", COLOURS.format("uchar").encode() + b"element face")
-    data = data.replace(b"0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n", b"0 0 0 0 0 9 9 9\n1 0 0 1 0 9 9 9\n0 1 0 0 1 9 9 9\n")
+    data = data.replace(
+        b"0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n", b"0 0 0 0 0 9 9 9\n1 0 0 1 0 9 9 9\n0 1 0 0 1 9 9 9\n"
+    )
     mesh = read({"m.ply": data, "t.png": png()})
     assert mesh.colour == Colour.TEXTURE
     assert mesh.warnings == ("vertex colours give way to the texture",)
 
 
-@pytest.mark.parametrize(("face", "code"), [([0, 1, 5], Code.INDEX_OUT_OF_RANGE), ([0, 1, -1], Code.INDEX_OUT_OF_RANGE)])
+@pytest.mark.parametrize(
+    ("face", "code"), [([0, 1, 5], Code.INDEX_OUT_OF_RANGE), ([0, 1, -1], Code.INDEX_OUT_OF_RANGE)]
+)
 def test_a_face_must_name_vertices_that_are_there(face: list[int], code: Code) -> None:
     assert refusal({"m.ply": ply_ascii(POINTS, [face])}) == code
 

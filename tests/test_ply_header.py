@@ -67,7 +67,9 @@ def test_a_header_that_cannot_be_right_is_refused(old: bytes, new: bytes, code: 
     assert refused(GOOD.replace(old, new, 1)) == code
 
 
-@pytest.mark.parametrize("data", [b"", b" \n", b"ply\nformat ascii 1.0\nend_header\n", ply_header("ascii", 0, 0)])
+@pytest.mark.parametrize(
+    "data", [b"", b" \n", b"ply\nformat ascii 1.0\nend_header\n", ply_header("ascii", 0, 0)]
+)
 def test_a_file_that_announces_nothing_is_empty(data: bytes) -> None:
     assert refused(data) == Code.EMPTY
 

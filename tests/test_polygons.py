@@ -55,6 +55,11 @@ def test_a_quad_with_a_dent_is_split_along_its_inner_diagonal(turn: int) -> None
     assert (split(np.roll(dart, turn, axis=0))[:, 2] > 0).all()
 
 
+def test_a_twisted_quad_still_gives_two_triangles() -> None:
+    bow_tie = np.array([[0.0, 0, 0], [1, 1, 0], [1, 0, 0], [0, 1, 0.2]])
+    assert len(split(bow_tie)) == 2
+
+
 def test_a_pentagram_does_not_pass_for_convex() -> None:
     angles = np.arange(5) * 4 * np.pi / 5
     points = np.stack([np.cos(angles), np.sin(angles), np.zeros(5)], axis=1)

@@ -46,7 +46,8 @@ def test_a_file_inside_that_was_not_sent_is_just_missing() -> None:
 
 
 @pytest.mark.parametrize(
-    "reference", ["/etc/passwd", "../sibling.mtl", "../../../etc/passwd", "C:\\x.mtl", "\\\\server\\x.mtl", "/dev/zero"]
+    "reference",
+    ["/etc/passwd", "../sibling.mtl", "../../../etc/passwd", "C:\\x.mtl", "\\\\server\\x.mtl", "/dev/zero"],
 )
 def test_a_name_outside_of_the_upload_is_refused(reference: str) -> None:
     with pytest.raises(MeshError) as caught:

@@ -82,7 +82,14 @@ def test_an_image_is_refused_for_its_size_before_a_pixel_is_read(size: tuple[int
 
 
 @pytest.mark.parametrize(
-    "data", [b"", b"<html></html>", b"<svg xmlns='http://www.w3.org/2000/svg'/>", b"%!PS-Adobe-3.0 EPSF-3.0\n", png()[:50]]
+    "data",
+    [
+        b"",
+        b"<html></html>",
+        b"<svg xmlns='http://www.w3.org/2000/svg'/>",
+        b"%!PS-Adobe-3.0 EPSF-3.0\n",
+        png()[:50],
+    ],
 )
 def test_what_is_no_whole_image_is_refused(data: bytes) -> None:
     assert refused(data) == Code.BAD_IMAGE

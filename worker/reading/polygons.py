@@ -66,7 +66,8 @@ def _split(points: FloatArray) -> tuple[IntArray, IntArray]:
     fans = np.stack([_fan(size, start) for start in (0, 1)])  # (2, size-2, 3)
     worst = np.stack([_smallest(points, normals, fan) for fan in fans])  # (2, p)
     split = fans[np.argmax(worst, axis=0)]  # (p, size-2, 3)
-    ears = worst.max(axis=0) < -1e-12 * (normals**2).sum(axis=1)  # flat triangles are no reason to clip
+    # Flat triangles are no reason to clip ears, and of a quad one of the two fans is always the best.
+    ears = (worst.max(axis=0) < -1e-12 * (normals**2).sum(axis=1)) & (size > 4)
     owners = np.repeat(np.arange(n_polygons), size - 2)
     kept = ~np.repeat(ears, size - 2)
     clipped = [_clip(points[polygon], normals[polygon]) for polygon in np.flatnonzero(ears)]
