@@ -15,6 +15,7 @@ from sqlalchemy.orm import Session
 from index.errors import CatalogueBusy, StorageFull
 
 _BUSY_SECONDS = 30  # how long a writer waits for another
+_CONNECTIONS = 90  # beyond the first ten: one for each thread of a busy service
 _WRITES = "faience_writes"  # execution option of connections that are going to write
 
 
@@ -24,7 +25,7 @@ def make_engine(url: str) -> Engine:
     On SQLite every committed transaction is flushed to the disk before it returns, readers never
     wait for the writer, and writers wait for each other instead of failing half-way.
     """
-    engine = create_engine(url, pool_size=10, max_overflow=30)
+    engine = create_engine(url, pool_size=10, max_overflow=_CONNECTIONS)
     if engine.dialect.name == "sqlite":
         event.listen(engine, "connect", _prepare_sqlite)
         event.listen(engine, "begin", _begin_sqlite)

@@ -93,7 +93,7 @@ def _claim_one(session: Session, moment: datetime, worker: str, lease_until: dat
     # One statement finds and takes: two workers that first looked and then took would double jobs.
     oldest = (
         select(JobRow.id)
-        .where(_free(moment), JobRow.attempts < MAX_ATTEMPTS)
+        .where(_free(moment))
         .order_by(JobRow.id)
         .limit(1)
         .with_for_update(skip_locked=True)  # SQLite has one writer and leaves this out

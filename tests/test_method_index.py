@@ -88,3 +88,19 @@ def test_an_unchanged_index_is_written_once(
     again.catch_up()
     again.save()
     assert written == ["hks.vectors"]
+
+
+def test_what_changed_before_the_file_was_written_is_read_again(opened: Opened, tmp_path: Path) -> None:
+    for shape_id in "ab":
+        add_ready(opened, shape_id)
+    found = make_index(opened, tmp_path)
+    found.catch_up()
+    (tmp_path / "index" / "hks.vectors").unlink()
+    add_ready(opened, "c")
+    found.catch_up()
+    opened.catalogue.add_quantised("a", opened.vocabulary_id, {"hks-0": [5.0, 0.0]})
+    opened.catalogue.remove("b")
+    found.save()  # shows neither of the two
+    again = make_index(opened, tmp_path)
+    again.catch_up()
+    assert answer(again) == [("c", 1.0), ("a", 5.0)]

@@ -1,4 +1,4 @@
-"""${message}."""
+"""${message}; there is no way back but a backup."""
 
 import sqlalchemy as sa
 from alembic import op
@@ -13,8 +13,3 @@ depends_on = None
 def upgrade() -> None:
     """Apply this step."""
     ${upgrades if upgrades else "pass"}
-
-
-def downgrade() -> None:
-    """Take it back."""
-    ${downgrades if downgrades else "pass"}

@@ -22,13 +22,6 @@ def upgrade() -> None:
     _create_state()
 
 
-def downgrade() -> None:
-    """Drop every table, and with them the whole catalogue."""
-    for table in ("state", "tombstones", "quantised_blocks", "plain_blocks", "jobs", "files", "shapes"):
-        op.drop_table(table)
-    op.drop_table("vocabularies")
-
-
 def _integer() -> sa.BigInteger:
     return sa.BigInteger().with_variant(sa.Integer(), "sqlite")
 
