@@ -4,7 +4,7 @@ import builtins
 from base64 import urlsafe_b64decode, urlsafe_b64encode
 from collections.abc import Iterable, Mapping
 
-from sqlalchemy import Engine, Select, func, select
+from sqlalchemy import Engine, Select, false, func, select
 
 from index.database import reading
 from index.errors import BadCursor
@@ -12,6 +12,7 @@ from index.rows import folded, shape_of, shape_row
 from index.shapes import Page, Shape, Status
 from index.tables import FileRow, ShapeRow
 
+_LONGEST = 12_000  # signs of a filter; SQLite refuses patterns over 50 000 bytes
 _AT_ONCE = 500  # ids in one statement; SQLite allows 32 766 values
 
 
@@ -85,9 +86,11 @@ class Listing:
 def _filtered(query: Select[ShapeRow], status: Status | None, q: str | None) -> Select[ShapeRow]:
     if status is not None:
         query = query.where(ShapeRow.status == status)
-    if q:
-        query = query.where(ShapeRow.searchable.contains(folded(q), autoescape=True))
-    return query
+    if not q:
+        return query
+    text = folded(q)
+    contained = ShapeRow.searchable.contains(text, autoescape=True)
+    return query.where(contained if len(text) <= _LONGEST else false())
 
 
 def _cursor_of(sequence: int) -> str:

@@ -103,6 +103,13 @@ def test_text_that_no_database_accepts_finds_nothing_and_breaks_nothing(opened: 
     assert found(opened, "half") == {"a"}
 
 
+@pytest.mark.parametrize("sign", ["%", "𝄞", "a"])
+def test_a_filter_of_any_length_is_answered(opened: Opened, sign: str) -> None:
+    add_queued(opened, "a", text=sign * 11_000)
+    assert found(opened, sign * 10_999) == {"a"}
+    assert found(opened, sign * 100_000) == set()
+
+
 def test_a_renamed_shape_is_found_by_its_new_name_alone(opened: Opened) -> None:
     add_queued(opened, "a", tag="old tag")
     opened.catalogue.update("a", name="Éclair", metadata={"tag": "fresh"})
