@@ -1,0 +1,53 @@
+"""The `faience` command."""
+
+import sys
+from importlib.metadata import version
+from typing import Annotated
+
+import typer
+from typer.exceptions import TyperException
+
+from service.commands.failures import STOPPED, say
+from service.commands.index import index
+from service.commands.search import search
+from service.commands.serve import serve
+from service.commands.vocabulary import learn_vocabulary
+from service.commands.worker import worker
+
+app = typer.Typer(
+    name="faience",
+    help="Find coloured 3D shapes that look alike, whatever their pose.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,  # a defect keeps its plain traceback, for a report
+)
+for command in (serve, worker, index, search):
+    app.command()(command)
+app.command("learn-vocabulary")(learn_vocabulary)
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"faience {version('faience')}")
+        raise typer.Exit
+
+
+@app.callback()
+def faience(
+    _version: Annotated[
+        bool, typer.Option("--version", callback=_show_version, is_eager=True, help="Print the version.")
+    ] = False,
+) -> None:
+    """Find coloured 3D shapes that look alike, whatever their pose."""
+
+
+def main() -> None:
+    """Run the command line; a wrong option gets one plain line, too."""
+    try:
+        sys.exit(app(standalone_mode=False))
+    except typer.Abort:
+        sys.exit(STOPPED)
+    except TyperException as error:
+        if error.format_message():  # empty where help was printed instead
+            say(f"{error.format_message()} (see `faience --help`)")
+        sys.exit(error.exit_code)

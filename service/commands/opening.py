@@ -1,0 +1,67 @@
+"""Libraries and workers for the length of one command."""
+
+import contextlib
+import threading
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+from service.app import child_limits
+from service.commands.failures import CommandFailed
+from service.library import Library
+from service.pool import ProcessPerJob
+from service.settings import Settings
+from service.workers import Worker, process_name
+
+
+def settings_for(data_dir: Path, **changes: Any) -> Settings:
+    """Return the settings of the environment, with those given on the command line."""
+    given = {name: value for name, value in changes.items() if value is not None}
+    return Settings(data_dir=data_dir, **given)
+
+
+@contextlib.contextmanager
+def opened(settings: Settings, *, make: bool = False) -> Iterator[Library]:
+    """Open a library; without ``make`` it must exist already.
+
+    Raises
+    ------
+    CommandFailed
+        There is none.
+    """
+    if not make and settings.database_url is None and not settings.data_dir.is_dir():
+        raise CommandFailed(f"there is no library at {settings.data_dir}; `faience index PATH` makes one")
+    library = Library.open(settings)
+    try:
+        yield library
+    finally:
+        library.close()
+
+
+@contextlib.contextmanager
+def pool_for(settings: Settings) -> Iterator[ProcessPerJob]:
+    """Start the processes that describe meshes; kill those that still run at the end."""
+    pool = ProcessPerJob(slots=max(settings.workers, 1), limits=child_limits(settings))
+    pool.warm()
+    try:
+        yield pool
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+@contextlib.contextmanager
+def working(library: Library) -> Iterator[Callable[[], None]]:
+    """Work on the queue beside the command; yield what wakes the worker for a new job.
+
+    Jobs that are not finished at the end go back to the queue.
+    """
+    with pool_for(library.settings) as pool:
+        worker = Worker(library, pool, slots=max(library.settings.workers, 1), name=process_name())
+        thread = threading.Thread(target=worker.run, name="worker")
+        thread.start()
+        try:
+            yield worker.wake
+        finally:
+            worker.stop()
+            pool.shutdown(cancel_futures=True)
+            thread.join()
