@@ -1,7 +1,7 @@
 """Mesh files written in code, and the one way the tests read them."""
 
 import io
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import numpy as np
 import numpy.typing as npt
@@ -35,6 +35,15 @@ def refusal(
     return caught.value.code
 
 
+def attempt(work: Callable[[], object]) -> Code | None:
+    """Return the code of a refusal, or None where the work is done; any other error is one."""
+    try:
+        work()
+    except MeshError as caught:
+        return caught.code
+    return None
+
+
 def png(pixels: npt.NDArray[np.uint8] | None = None) -> bytes:
     """Return an image; four unlike pixels unless given."""
     if pixels is None:
@@ -48,7 +57,8 @@ def ply_header(form: str, n_vertices: int, n_faces: int, extra: str = "") -> byt
     """Return the header of a PLY file with float positions; `extra` follows those properties."""
     return (
         f"ply\nformat {form} 1.0\nelement vertex {n_vertices}\nproperty float x\nproperty float y\n"
-        f"property float z\n{extra}element face {n_faces}\nproperty list uchar int vertex_indices\nend_header\n"
+        f"property float z\n{extra}element face {n_faces}\n"
+        "property list uchar int vertex_indices\nend_header\n"
     ).encode()
 
 

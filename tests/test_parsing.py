@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.mesh_files import attempt
 from worker.errors import Code, MeshError
 from worker.reading.parsing import parse_floats, parse_integers
 from worker.reading.words import Words, split_words
@@ -42,11 +43,8 @@ def test_whole_numbers_are_exact(numbers: list[int]) -> None:
 @given(st.lists(st.one_of(st.sampled_from([*ODD, "1", "-.5", "3."]), st.text(max_size=4)), max_size=4))
 def test_any_words_give_numbers_or_a_refusal(texts: list[str]) -> None:
     words = split_words(" ".join(texts).encode())
-    for parse in (parse_floats, parse_integers):
-        try:
-            assert parse(words).size == words.starts.size
-        except MeshError as refused:
-            assert refused.code == Code.BAD_NUMBER
+    assert attempt(lambda: parse_floats(words)) in {None, Code.BAD_NUMBER}
+    assert attempt(lambda: parse_integers(words)) in {None, Code.BAD_NUMBER}
 
 
 @pytest.mark.parametrize("word", ["x", "1,5", "1_0", "0x1", "1e", "--1", "1-2", "1.2.3", "٣"])
@@ -62,7 +60,7 @@ def test_what_programs_write_for_no_number_is_read_as_such(word: str) -> None:
 
 def test_an_empty_word_is_zero_among_whole_numbers() -> None:
     words = split_words(b"12 34")
-    empty = Words(text=words.text, starts=words.starts, ends=words.ends - [2, 0], lines=words.lines)
+    empty = Words(text=words.text, starts=words.starts, ends=words.ends - np.array([2, 0]), lines=words.lines)
     assert parse_integers(empty).tolist() == [0, 34]
 
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.mesh_files import area, ply_ascii, ply_binary, ply_header, png, read, refusal
+from tests.mesh_files import area, attempt, ply_ascii, ply_binary, ply_header, png, read, refusal
 from worker.errors import Code, MeshError
 from worker.reading.limits import Limits
 from worker.reading.mesh import Colour
@@ -138,11 +138,8 @@ def test_faces_of_two_corners_are_dropped_and_counted() -> None:
 def test_a_damaged_byte_gives_a_mesh_with_valid_indices_or_a_refusal(place: int, byte: int, write) -> None:  # type: ignore[no-untyped-def]
     data = bytearray(write(POINTS, [[0, 1, 2, 3], [0, 3, 4]] * 4))
     data[place % len(data)] = byte
-    try:
+    if attempt(lambda: read_ply(bytes(data), "m.ply", Limits())) is None:
         surface = read_ply(bytes(data), "m.ply", Limits())
-    except MeshError as caught:
-        assert caught.detail
-    else:
         assert surface.corners.min(initial=0) >= 0
         assert surface.corners.max(initial=0) < len(surface.vertices)
         assert np.isfinite(surface.vertices).all()

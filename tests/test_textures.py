@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
 
-from tests.mesh_files import png
+from tests.mesh_files import attempt, png
 from worker.errors import Code, MeshError
 from worker.reading.limits import Limits
 from worker.reading.textures import check_image, read_image
@@ -103,7 +103,5 @@ def test_a_cut_image_passes_by_its_header_alone() -> None:
 def test_a_damaged_image_is_read_or_refused(place: int, byte: int, length: int) -> None:
     data = bytearray(png())
     data[place] = byte
-    try:
-        assert read_image(bytes(data[:length]), "t.png", Limits()).ndim == 3
-    except MeshError as refusal:
-        assert refusal.code in {Code.BAD_IMAGE, Code.IMAGE_TOO_LARGE}
+    kinds = {None, Code.BAD_IMAGE, Code.IMAGE_TOO_LARGE}
+    assert attempt(lambda: read_image(bytes(data[:length]), "t.png", Limits())) in kinds

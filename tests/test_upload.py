@@ -10,7 +10,7 @@ import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.mesh_files import TEXTURED, ply_binary, png, read, refusal
+from tests.mesh_files import TEXTURED, attempt, ply_binary, png, read, refusal
 from worker.errors import Code, MeshError
 from worker.geometry.repair import repair
 from worker.reading.limits import Limits
@@ -59,7 +59,7 @@ def test_inspection_opens_small_zips_and_lists_large_ones(monkeypatch: pytest.Mo
     assert caught.value.code == Code.BAD_IMAGE
     monkeypatch.setattr("worker.reading.upload._SMALL", 10)
     inspect_upload(Upload(files={"a.zip": zipped(bad)}))
-    with pytest.raises(MeshError, match="several|found 2"):
+    with pytest.raises(MeshError, match="found 2"):
         inspect_upload(Upload(files={"a.zip": zipped({**bad, "n.ply": b""})}))
 
 
@@ -70,12 +70,7 @@ def test_a_damaged_file_is_read_or_refused_and_inspection_refuses_no_more(
     files = {**FILES, name: FILES[name][:place] + junk + FILES[name][place + len(junk) :]}
     upload = Upload(files=files, allow_untextured=allowed)
     limits = Limits(image_pixels=1_000)
-    try:
-        mesh = read_mesh(upload, limits)
-    except MeshError as caught:
-        assert caught.detail
-    else:
-        assert mesh.faces.max() < len(mesh.vertices)
+    if attempt(lambda: read_mesh(upload, limits)) is None:
         inspect_upload(upload, limits)
 
 

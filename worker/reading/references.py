@@ -16,11 +16,11 @@ def normalise(path: str) -> str | None:
 
     Backslashes separate folders too, as programs on Windows write them.
     """
-    slashed = path.strip().replace("\\", "/")
+    slashed = path.replace("\\", "/")
     if not slashed or _is_absolute(slashed) or "\0" in slashed:
         return None
     normal = posixpath.normpath(slashed)
-    return None if normal in {".", ".."} or normal.startswith("../") else normal
+    return None if normal in {".", ".."} or normal.startswith("../") or _is_absolute(normal) else normal
 
 
 def _is_absolute(slashed: str) -> bool:
