@@ -1,0 +1,42 @@
+"""A library is made on first opening and found on the next."""
+
+from pathlib import Path
+
+import pytest
+
+from index.errors import StorageFull
+from index.vocabulary import default_vocabulary
+from service.library import Library
+from tests.serving import fake_vocabulary, settings_for
+
+
+def test_a_new_library_starts_with_the_vocabulary_that_ships(tmp_path: Path) -> None:
+    library = Library.open(settings_for(tmp_path / "made" / "here"))
+    active = library.catalogue.active_vocabulary()
+    library.close()
+    assert active is not None
+    assert active.id == default_vocabulary().id
+
+
+def test_opening_again_keeps_the_vocabulary(tmp_path: Path) -> None:
+    Library.open(settings_for(tmp_path), vocabulary=fake_vocabulary()).close()
+    library = Library.open(settings_for(tmp_path))
+    active = library.catalogue.active_vocabulary()
+    library.close()
+    assert active is not None
+    assert active.id == fake_vocabulary().id
+
+
+def test_closing_leaves_no_temporary_files(tmp_path: Path) -> None:
+    library = Library.open(settings_for(tmp_path), vocabulary=fake_vocabulary())
+    assert library.incoming.folder.is_dir()
+    library.close()
+    assert not library.incoming.folder.exists()
+
+
+def test_a_reserve_of_the_disk_is_kept(tmp_path: Path) -> None:
+    library = Library.open(settings_for(tmp_path, reserve_bytes=1), vocabulary=fake_vocabulary())
+    library.check_space(10)
+    with pytest.raises(StorageFull):
+        library.check_space(2**60)
+    library.close()

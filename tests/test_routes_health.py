@@ -1,0 +1,47 @@
+"""Health and metrics tell the truth."""
+
+from pathlib import Path
+
+import pytest
+from sqlalchemy.exc import OperationalError
+
+from tests.fakes import coloured_triangle
+from tests.problems import problem
+from tests.serving import serving, settings_for
+
+
+def test_ready_says_whether_the_catalogue_answers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with serving(settings_for(tmp_path, workers=0)) as running:
+        assert running.client.get("/livez").json() == {"status": "ok"}
+        assert running.client.get("/readyz").json() == {"status": "ok"}
+
+        def away() -> int:
+            raise OperationalError("SELECT", {}, Exception("secret host is away"))
+
+        monkeypatch.setattr(running.library.catalogue, "revision", away)
+        answer = running.client.get("/readyz")
+        detail = problem(answer, 503, "busy")
+        assert "secret" not in detail
+        assert answer.headers["retry-after"]
+        assert running.client.get("/livez").status_code == 200
+
+
+def test_metrics_count_requests_by_route_and_jobs_by_outcome(tmp_path: Path) -> None:
+    with serving(settings_for(tmp_path)) as running:
+        path = running.add({"a.ply": coloured_triangle()}).headers["location"]
+        running.client.get(path)
+        running.client.get("/v1/shapes/unknown")
+        running.client.get(f"{path}/files/a.ply")
+        running.client.get("/no/such/path")
+        lines = running.client.get("/metrics").text.splitlines()
+    for line in (
+        'faience_requests_total{method="POST",path="/v1/shapes",status="201"} 1.0',
+        'faience_requests_total{method="GET",path="/v1/shapes/{shape_id}",status="200"} 1.0',
+        'faience_requests_total{method="GET",path="/v1/shapes/{shape_id}",status="404"} 1.0',
+        'faience_requests_total{method="GET",path="/v1/shapes/{shape_id}/files/{name}",status="200"} 1.0',
+        'faience_requests_total{method="GET",path="unknown",status="404"} 1.0',
+        'faience_jobs_total{outcome="ready"} 1.0',
+        'faience_shapes{status="ready"} 1.0',
+        "faience_queue_depth 0.0",
+    ):
+        assert line in lines
