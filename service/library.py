@@ -1,7 +1,7 @@
 """What a data folder holds, opened: the one value that use cases are given."""
 
 import shutil
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from sqlalchemy import Engine
 
@@ -31,6 +31,7 @@ class Library:
     searcher: Searcher
     parameters: Parameters  # of every description in this library
     limits: Limits  # on what is read
+    vocabularies: dict[str, Vocabulary] = field(default_factory=dict)  # read before; one id, one content
 
     @classmethod
     def open(

@@ -23,10 +23,8 @@ class NoVocabulary(Exception):  # noqa: N818 - it reads as what is missing
 
 def active_vocabulary(library: Library) -> Vocabulary:
     """Return the vocabulary that queries and records use now."""
-    vocabulary = library.catalogue.active_vocabulary()
-    if vocabulary is None:
-        raise NoVocabulary("no vocabulary is active; learn one with `faience learn-vocabulary`")
-    return vocabulary
+    known = library.vocabularies.get(library.catalogue.state().vocabulary_id or "")
+    return known or _read_active(library)
 
 
 def learn_vocabulary(library: Library, progress: Progress = lambda *_: None) -> Vocabulary:
@@ -82,3 +80,12 @@ def _all_signatures(library: Library) -> Iterator[dict[str, SingleArray]]:
         cursor = page.next_cursor
         if cursor is None:
             return
+
+
+def _read_active(library: Library) -> Vocabulary:
+    vocabulary = library.catalogue.active_vocabulary()
+    if vocabulary is None:
+        raise NoVocabulary("no vocabulary is active; learn one with `faience learn-vocabulary`")
+    library.vocabularies.clear()  # one at a time is asked for
+    library.vocabularies[vocabulary.id] = vocabulary
+    return vocabulary

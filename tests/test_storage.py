@@ -1,0 +1,32 @@
+"""Keys are ours, and signatures come back as they were."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from index.errors import FileMissing
+from index.files import FileStore
+from service.storage import THUMBNAIL, derived_key, load_signatures, save_signatures, upload_key
+
+
+def test_keys_tell_whose_file_it_is() -> None:
+    assert upload_key("u1", 3) == "uploads/u1/3"
+    assert derived_key("s1", THUMBNAIL) == "shapes/s1/thumbnail.png"
+
+
+def test_signatures_come_back_bit_for_bit_in_single_precision(tmp_path: Path) -> None:
+    store = FileStore(tmp_path)
+    sent = {"areas": np.linspace(0, 1, 7), "hks-0.05": np.random.default_rng(1).normal(size=(7, 6))}
+    single = {name: array.astype(np.float32) for name, array in sent.items()}
+    save_signatures(store, "s1", single)
+    found = load_signatures(store, "s1")
+    assert list(found) == list(single)
+    for name, array in single.items():
+        assert found[name].dtype == np.float32
+        np.testing.assert_array_equal(found[name], array)
+
+
+def test_a_shape_without_signatures_is_named(tmp_path: Path) -> None:
+    with pytest.raises(FileMissing):
+        load_signatures(FileStore(tmp_path), "s1")
