@@ -11,10 +11,11 @@ from rich.console import Console
 from rich.table import Table
 
 from service.commands.batch import Outcome, Result, index_sources
-from service.commands.discovery import find_sources
-from service.commands.failures import CommandFailed
+from service.commands.discovery import Source, find_sources
+from service.commands.failures import STOPPED, CommandFailed
 from service.commands.opening import opened, settings_for, working
 from service.commands.progress import progress_bar
+from service.settings import Settings
 
 SHOWN = 20  # refusals in the summary; --json has all
 AHEAD = 8  # shapes that wait, for each worker
@@ -34,8 +35,18 @@ def index_paths(
     total = sum(len(source.meshes) for source in sources)
     if total == 0:
         raise CommandFailed(f"there is no .ply, .obj or .zip in {', '.join(map(str, paths))}")
-    start, outcomes = time.perf_counter(), []
-    settings = settings_for(data_dir, workers=workers)
+    start = time.perf_counter()
+    try:
+        outcomes = _run(sources, total, settings_for(data_dir, workers=workers), allow_untextured, as_json)
+    except KeyboardInterrupt:
+        raise CommandFailed("stopped; the same command goes on from here", STOPPED) from None
+    _sum_up(outcomes, time.perf_counter() - start, as_json)
+
+
+def _run(
+    sources: Sequence[Source], total: int, settings: Settings, allow_untextured: bool, as_json: bool
+) -> list[Outcome]:
+    outcomes = []
     with contextlib.ExitStack() as stack:
         library = stack.enter_context(opened(settings, make=True))
         wake = stack.enter_context(working(library))
@@ -46,7 +57,7 @@ def index_paths(
             advance()
             if as_json:
                 print(_line(outcome), flush=True)  # noqa: T201 - this is the command's output
-    _sum_up(outcomes, time.perf_counter() - start, as_json)
+    return outcomes
 
 
 def _line(outcome: Outcome) -> str:

@@ -1,5 +1,6 @@
 """The `faience` command."""
 
+import signal
 import sys
 from importlib.metadata import version
 from typing import Annotated
@@ -43,6 +44,7 @@ def faience(
 
 def main() -> None:
     """Run the command line; a wrong option gets one plain line, too."""
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # stop as for Ctrl-C, jobs given back
     try:
         sys.exit(app(standalone_mode=False))
     except typer.Abort:

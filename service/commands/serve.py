@@ -38,14 +38,18 @@ def serve(
     """Serve the library over HTTP until stopped."""
     with plain_failures():
         from service.commands.opening import opened, settings_for  # heavy; --help must not wait for it
+        from service.commands.watching import watching
+        from service.samples import count_samples
         from service.server import run_server
 
         settings = settings_for(data_dir, host=host, port=port, workers=workers, insecure=insecure or None)
         settings.check_listening()
         check_address(settings.host, settings.port)
-        with opened(settings, make=True):
-            pass  # what is wrong with the library is said before anything starts
-        run_server(settings, settings.workers, samples, reporter(json))
+        with opened(settings, make=True) as library:  # what is wrong with it is said before anything starts
+            new = sum(library.catalogue.counts().values()) == 0
+        show = samples and new and settings.workers > 0
+        with watching(settings, "Samples", count_samples()) if show else contextlib.nullcontext():
+            run_server(settings, settings.workers, samples, reporter(json))
 
 
 def check_address(host: str, port: int) -> None:
