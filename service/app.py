@@ -128,5 +128,5 @@ def _embedded_worker(library: Library, metrics: Metrics, describe: Describe) -> 
         yield worker.wake
     finally:
         worker.stop()
+        thread.join()  # it gives its jobs back first, while the pool still takes what it submits
         pool.shutdown(cancel_futures=True)
-        thread.join()

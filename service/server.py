@@ -90,8 +90,8 @@ def run_worker(settings: Settings, workers: int, stop: threading.Event) -> None:
         stop.wait()
     finally:
         worker.stop()
+        thread.join()  # it gives its jobs back first, while the pool still takes what it submits
         pool.shutdown(cancel_futures=True)
-        thread.join()
         library.close()
 
 

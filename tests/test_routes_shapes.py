@@ -70,6 +70,13 @@ def test_the_same_content_is_known(service: Serving) -> None:
     assert again.headers["location"] == first.headers["location"]
 
 
+def test_waiting_for_what_is_known_waits_too(service: Serving) -> None:
+    files = {"late.ply": coloured_triangle(33)}
+    service.add(files, wait=0)
+    again = service.add(files)
+    assert (again.status_code, again.json()["status"]) == (200, "ready")
+
+
 def test_twenty_equal_uploads_at_once_make_one_shape_with_one_set_of_files(idle: Serving) -> None:
     before = len(kept(idle))
     with ThreadPoolExecutor(20) as threads:

@@ -52,7 +52,7 @@ async def add_shape(
         shape, new = await to_thread.run_sync(accept_upload, services.library, submission)
     if new:
         services.notify()
-        shape = await _settled(services.library, shape, wait)
+    shape = await _settled(services.library, shape, wait)
     response.headers["Location"] = f"/v1/shapes/{shape.id}"
     response.status_code = (201 if shape.status == Status.READY else 202) if new else 200
     return ShapeModel.of(shape)
