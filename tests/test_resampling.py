@@ -21,6 +21,23 @@ def test_any_resolution_becomes_the_canonical_one(mesh: tuple[FloatArray, IntArr
     np.testing.assert_allclose(np.linalg.norm(face_vectors(vertices, faces), axis=1).sum(), 19_000.0)
 
 
+def tube(n: int, length: float) -> tuple[FloatArray, IntArray]:
+    """Return a tube of radius 1 from 2 n needles."""
+    angles = 2 * np.pi * np.arange(n) / n
+    ring = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(n)])
+    here, there = np.arange(n), (np.arange(n) + 1) % n
+    faces = [np.column_stack([here, there, here + n]), np.column_stack([there, there + n, here + n])]
+    return np.vstack([ring, ring + [0, 0, length]]), np.vstack(faces)
+
+
+def test_needles_do_not_become_ever_more_needles() -> None:
+    vertices, _ = resample(*tube(64, 2_000.0), 19_000.0, 5_000)
+    assert len(vertices) == 5_000
+    np.testing.assert_allclose(
+        np.ptp(vertices[:, 2]), 2_000.0 * np.sqrt(19_000.0 / (4_000.0 * np.pi)), rtol=0.1
+    )
+
+
 def test_an_even_triangulation_of_a_human_body_has_edges_of_two_centimetres() -> None:
     np.testing.assert_allclose(edge_of(19_000.0, 5_000), 2.1, atol=0.05)
 

@@ -14,7 +14,7 @@ from worker.geometry.areas import face_vectors, unit
 from worker.geometry.edges import Edges, find_edges, lengths_of
 
 SHARE = 0.4  # of the edges, the shortest, may collapse in a round
-PENALTY = 1.5  # by which the edges at a vertex look longer after each refused collapse
+PENALTY = 2.0  # by which the edges at a vertex look longer after each refused collapse
 GIVE_UP = 1e3  # penalty from which an edge is left alone
 MIDDLE = 1e-2  # pull of the middle of the edge, relative to the quadric
 
@@ -30,7 +30,7 @@ class _Surface:
 
 
 def collapse_short_edges(
-    vertices: FloatArray, faces: IntArray, n_vertices: int
+    vertices: FloatArray, faces: IntArray, n_vertices: int, longest: float = np.inf, least: float = 0.0
 ) -> tuple[FloatArray, IntArray]:
     """Collapse short edges until few enough vertices are left.
 
@@ -43,6 +43,10 @@ def collapse_short_edges(
     faces : (m, 3) array
     n_vertices : int
         How many vertices to keep. More are kept where the topology does not allow so few.
+    longest : float
+        Edges over this length stay.
+    least : float
+        The share of the vertices that a round must remove to be followed by another.
 
     Returns
     -------
@@ -53,8 +57,8 @@ def collapse_short_edges(
     surface = _Surface(vertices.copy(), faces, quadrics, np.ones(len(vertices)))
     while len(surface.vertices) > n_vertices:
         edges = find_edges(surface.faces)
-        chosen = _choose(surface, edges, len(surface.vertices) - n_vertices)
-        if len(chosen) == 0:
+        chosen = _choose(surface, edges, len(surface.vertices) - n_vertices, longest)
+        if len(chosen) <= least * len(surface.vertices):
             break
         _collapse(surface, edges.ends[chosen])
     return surface.vertices, surface.faces
@@ -88,11 +92,11 @@ def _add_planes(
         np.add.at(quadrics, column, rows)
 
 
-def _choose(surface: _Surface, edges: Edges, most: int) -> IntArray:
+def _choose(surface: _Surface, edges: Edges, most: int, longest: float) -> IntArray:
     """Pick the shortest edges that are alone in their neighbourhood and may collapse."""
     worst = surface.penalties[edges.ends].max(axis=1)
-    costs = lengths_of(surface.vertices, edges) * worst
-    costs[worst > GIVE_UP] = np.inf
+    lengths = lengths_of(surface.vertices, edges)
+    costs = np.where((worst > GIVE_UP) | (lengths > longest), np.inf, lengths * worst)
     shortest = np.argsort(costs, kind="stable")[: max(1, int(SHARE * len(costs)))]
     shortest = shortest[np.isfinite(costs[shortest])]
     chosen = shortest[_alone(edges.ends, edges.ends[shortest], len(surface.vertices))]
@@ -100,7 +104,7 @@ def _choose(surface: _Surface, edges: Edges, most: int) -> IntArray:
     surface.penalties[edges.ends[chosen[~keeps]]] *= PENALTY
     if keeps.any() or len(chosen) == 0:
         return np.asarray(chosen[keeps][:most])
-    return _choose(surface, edges, most)
+    return _choose(surface, edges, most, longest)
 
 
 def _alone(ends: IntArray, candidates: IntArray, n_vertices: int) -> BoolArray:

@@ -6,9 +6,7 @@ from worker.arrays import FloatArray, IntArray
 from worker.geometry.edges import Edges, find_edges, lengths_of
 
 
-def split_long_edges(
-    vertices: FloatArray, faces: IntArray, longest: float, budget: int = 400_000
-) -> tuple[FloatArray, IntArray]:
+def split_long_edges(vertices: FloatArray, faces: IntArray, longest: float) -> tuple[FloatArray, IntArray]:
     """Halve edges until none is longer than allowed; the surface stays the same set of points.
 
     Parameters
@@ -16,9 +14,7 @@ def split_long_edges(
     vertices : (n, 3) array
     faces : (m, 3) array
     longest : float
-        Edges over this length are halved. It is raised where that would take more than `budget` pieces.
-    budget : int
-        Bound on the number of pieces that the given edges are cut into.
+        Edges over this length are halved.
 
     Returns
     -------
@@ -26,7 +22,6 @@ def split_long_edges(
         The given vertices first.
     faces : (m', 3) array
     """
-    longest = max(longest, float(lengths_of(vertices, find_edges(faces)).sum()) / budget)
     while True:
         edges = find_edges(faces)
         long = lengths_of(vertices, edges) > longest  # (e,)

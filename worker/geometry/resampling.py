@@ -4,11 +4,13 @@ import fast_simplification
 import numpy as np
 
 from worker.arrays import FloatArray, IntArray
-from worker.geometry.areas import face_vectors
+from worker.geometry.areas import edge_lengths, face_vectors
 from worker.geometry.collapse import collapse_short_edges
 from worker.geometry.refinement import split_long_edges
 
 FINE = 4  # meshes over this many times the canonical resolution are thinned by a faster method first
+SHORTEST = 1 / 2  # of a canonical edge: shorter ones go before any is split, so that needles do not multiply
+WORTHWHILE = 0.01  # share of the vertices for which another round of that is run
 LONGEST = 4 / 3  # of a canonical edge: longer ones are split before collapsing (Botsch and Kobbelt 2004)
 SECTION = np.array(
     [0.7548776662466927, 0.5698402909980532]
@@ -50,7 +52,7 @@ def resample(
     vertices = normalise_area(vertices, faces, area)
     if len(vertices) > FINE * n_vertices:
         vertices, faces = _thin(vertices, faces, FINE * n_vertices)
-    vertices, faces = split_long_edges(vertices, faces, LONGEST * edge_of(area, n_vertices))
+    vertices, faces = _refine(vertices, faces, n_vertices, edge_of(area, n_vertices))
     vertices, faces = collapse_short_edges(vertices, faces, n_vertices)
     return normalise_area(vertices, faces, area), faces
 
@@ -78,6 +80,19 @@ def sample_surface(vertices: FloatArray, faces: IntArray, n_samples: int) -> tup
     square = (0.5 + np.arange(1, n_samples + 1)[:, None] * SECTION) % 1.0  # (n_samples, 2)
     square = np.where(square.sum(axis=1, keepdims=True) > 1.0, 1.0 - square, square)
     return face_indices, np.column_stack([1.0 - square.sum(axis=1), square])
+
+
+def _refine(
+    vertices: FloatArray, faces: IntArray, n_vertices: int, edge: float
+) -> tuple[FloatArray, IntArray]:
+    """Split long edges by and by, and drop short ones on the way: needles would become ever more needles."""
+    current = float(edge_lengths(vertices, faces).max())
+    vertices, faces = collapse_short_edges(vertices, faces, n_vertices, SHORTEST * edge, WORTHWHILE)
+    while current > LONGEST * edge:
+        current = max(current / 2.0, LONGEST * edge)
+        vertices, faces = split_long_edges(vertices, faces, current)
+        vertices, faces = collapse_short_edges(vertices, faces, n_vertices, SHORTEST * edge, WORTHWHILE)
+    return vertices, faces
 
 
 def _thin(vertices: FloatArray, faces: IntArray, n_vertices: int) -> tuple[FloatArray, IntArray]:

@@ -1,13 +1,15 @@
 """The small eigenvalues of a Laplacian, all of them, and their eigenfunctions."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from scipy import linalg, sparse
 from scipy.sparse import csgraph
 from scipy.sparse.linalg import LinearOperator, SuperLU, eigsh, splu
 
-from worker.arrays import FloatArray
+from worker.arrays import FloatArray, IntArray
 from worker.errors import Code, MeshError
 
 SHIFT = -2e-3  # of the inverse iteration, just below the spectrum
@@ -53,23 +55,41 @@ def solve_eigenpairs(
     MeshError
         ``unsolved`` where the pairs found are not as many as the inertia says.
     """
+    solved = []
+    for rows, piece in _pieces(stiffness):
+        massive = np.flatnonzero(mass[rows] > 0)
+        if len(massive) == 0:
+            continue
+        if len(massive) < len(rows):
+            rows, piece = rows[massive], sparse.csc_array(piece[massive][:, massive])
+        solved.append((rows, *_solve_piece(piece, mass[rows], cutoff, most)))
+    return _joined(solved, len(mass))
+
+
+def _pieces(stiffness: sparse.csc_array) -> Iterator[tuple[IntArray, sparse.csc_array]]:
+    """Yield the rows and the matrix of each connected piece."""
     n_pieces, pieces = csgraph.connected_components(stiffness, directed=False)
     order = np.argsort(pieces, kind="stable")
-    members = np.split(order, np.cumsum(np.bincount(pieces, minlength=n_pieces))[:-1])
-    values, columns = [], []
-    for rows in members:
-        rows = rows[mass[rows] > 0]
-        if len(rows) == 0:
-            continue
-        piece = stiffness[rows][:, rows] if len(rows) < len(mass) else stiffness
-        eigenvalues, vectors = _solve_piece(sparse.csc_array(piece), mass[rows], cutoff, most)
-        column = np.zeros((len(mass), len(eigenvalues)))
-        column[rows] = vectors
-        values.append(eigenvalues)
-        columns.append(column)
-    eigenvalues, eigenfunctions = np.concatenate(values), np.hstack(columns)
-    ascending = np.argsort(eigenvalues, kind="stable")
-    return Eigenpairs(eigenvalues=eigenvalues[ascending], eigenfunctions=eigenfunctions[:, ascending])
+    ends = np.concatenate([[0], np.cumsum(np.bincount(pieces, minlength=n_pieces))])
+    blocks = sparse.csc_array(stiffness[order][:, order])  # block diagonal
+    for start, end in pairwise(ends.tolist()):
+        inside = slice(blocks.indptr[start], blocks.indptr[end])
+        columns = blocks.indptr[start : end + 1] - blocks.indptr[start]
+        block = (blocks.data[inside], blocks.indices[inside] - start, columns)
+        yield order[start:end], sparse.csc_array(block, shape=(end - start, end - start))
+
+
+def _joined(solved: list[tuple[IntArray, FloatArray, FloatArray]], n_vertices: int) -> Eigenpairs:
+    """Put the pairs of the pieces (rows, eigenvalues, eigenfunctions) together, ascending."""
+    eigenvalues = np.concatenate([values for _, values, _ in solved])
+    places = np.argsort(np.argsort(eigenvalues, kind="stable"), kind="stable")
+    eigenfunctions = np.zeros((n_vertices, len(eigenvalues)))
+    start = 0
+    for rows, values, functions in solved:
+        columns = places[start : start + len(values)]
+        eigenfunctions[np.ix_(rows, columns)] = functions
+        start += len(values)
+    return Eigenpairs(eigenvalues=np.sort(eigenvalues, kind="stable"), eigenfunctions=eigenfunctions)
 
 
 def count_below(stiffness: sparse.csc_array, mass: FloatArray, value: float) -> int:
