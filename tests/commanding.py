@@ -10,15 +10,14 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from click.testing import Result
-from fakes import coloured_triangle, describe_quickly
-from serving import open_fake_library
-from typer.testing import CliRunner
+from typer.testing import CliRunner, Result
 
 from service.commands import opening, searching
 from service.commands.main import app
 from service.retrieval import search_upload
 from service.workers import Worker
+from tests.fakes import coloured_triangle, describe_quickly
+from tests.serving import open_fake_library
 
 
 def make_quick(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -33,9 +32,9 @@ HERE = Path(__file__).parent
 MAIN = "from service.commands.main import main; main()"
 
 
-def start(*arguments: str | Path, script: str = MAIN) -> subprocess.Popen[str]:
+def start(*arguments: str | Path | int, script: str = MAIN) -> subprocess.Popen[str]:
     """Start a command in a process of its own; its output and errors are pipes."""
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(HERE), str(HERE.parent)])}
+    environment = {**os.environ, "PYTHONPATH": str(HERE.parent)}
     return subprocess.Popen(  # noqa: S603 - our own command
         [sys.executable, "-c", script, *map(str, arguments)],
         env=environment,
@@ -45,7 +44,7 @@ def start(*arguments: str | Path, script: str = MAIN) -> subprocess.Popen[str]:
     )
 
 
-def run(*arguments: str | Path) -> Result:
+def run(*arguments: str | Path | int) -> Result:
     """Run a command in this process."""
     return CliRunner().invoke(app, [str(argument) for argument in arguments])
 

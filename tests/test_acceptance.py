@@ -3,13 +3,13 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
-from catalogues import Opened, add_queued, add_ready, open_catalogue
 from sqlalchemy import func, select
 
 from index.database import reading
 from index.errors import NotFailed, ShapeNotFound
 from index.shapes import Shape, Status, StoredFile
 from index.tables import FileRow, JobRow, ShapeRow, TombstoneRow
+from tests.catalogues import Opened, add_queued, add_ready, open_catalogue
 
 
 @pytest.fixture

@@ -1,8 +1,8 @@
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
-from shapes import box, sphere
 
+from tests.shapes import box, sphere
 from worker.geometry.areas import edge_lengths, face_vectors, triangle_areas, vertex_areas, vertex_normals
 
 

@@ -1,7 +1,7 @@
 import numpy as np
-from photograph import photograph
-from shapes import box, coloured, sphere
 
+from tests.photograph import photograph
+from tests.shapes import box, coloured, sphere
 from worker.canonical import canonical_surface
 from worker.descriptors.histograms import lab_histogram
 from worker.geometry.areas import edge_lengths, triangle_areas

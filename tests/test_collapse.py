@@ -1,6 +1,6 @@
 import numpy as np
-from shapes import sheet, sphere
 
+from tests.shapes import sheet, sphere
 from worker.geometry.areas import face_vectors
 from worker.geometry.collapse import collapse_short_edges
 from worker.geometry.edges import find_edges, lengths_of

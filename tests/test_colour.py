@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
-from photograph import photograph
-from shapes import SQUARE, coloured, sheet
 
+from tests.photograph import photograph
+from tests.shapes import SQUARE, coloured, sheet
 from worker.geometry.colour import average_over_cells, look_up_colours, srgb_to_lab
 from worker.reading.mesh import Colour, Mesh
 

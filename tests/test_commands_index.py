@@ -5,11 +5,11 @@ import time
 from pathlib import Path
 
 import pytest
-from commanding import MAIN, json_lines, make_meshes, make_quick, plain_line, run, start
-from serving import open_fake_library, settings_for
 
 from index.shapes import Status
 from service.library import Library
+from tests.commanding import MAIN, json_lines, make_meshes, make_quick, plain_line, run, start
+from tests.serving import open_fake_library, settings_for
 
 
 @pytest.fixture(autouse=True)
@@ -91,9 +91,11 @@ def test_a_wrong_path_or_an_empty_folder_is_one_plain_line(tmp_path: Path) -> No
 def test_ctrl_c_leaves_a_library_that_goes_on(tmp_path: Path) -> None:
     paths = make_meshes(tmp_path / "in", 3)
     paths[0].rename(tmp_path / "in" / "hang.ply")
-    quick = f"import pytest; from commanding import make_quick; make_quick(pytest.MonkeyPatch()); {MAIN}"
-    arguments = ["index", tmp_path / "in", "--data-dir", tmp_path / "lib"]
-    with start(*arguments, script=quick) as process:
+    quick = (
+        f"import pytest; from tests.commanding import make_quick; make_quick(pytest.MonkeyPatch()); {MAIN}"
+    )
+    arguments: list[str | Path] = ["index", tmp_path / "in", "--data-dir", tmp_path / "lib"]
+    with start(*arguments, script=f"{prepare}; {MAIN}") as process:
         library = _waited_for(tmp_path / "lib", ready=2)
         process.send_signal(signal.SIGINT)
         errors = process.communicate(timeout=120)[1]

@@ -3,7 +3,7 @@
 import json
 from pathlib import Path
 
-from commanding import make_meshes, run, start
+from tests.commanding import make_meshes, run, start
 
 
 def _run_for_real(*arguments: str | Path) -> tuple[int, str, str]:

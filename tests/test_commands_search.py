@@ -3,7 +3,8 @@
 from pathlib import Path
 
 import pytest
-from commanding import json_lines, make_meshes, make_quick, plain_line, run
+
+from tests.commanding import json_lines, make_meshes, make_quick, plain_line, run
 
 
 @pytest.fixture(autouse=True)

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import httpx
 import pytest
-from commanding import plain_line, run, start
 
 from service.commands.failures import CommandFailed
 from service.commands.serve import check_address
+from tests.commanding import plain_line, run, start
 
 
 def test_a_port_in_use_is_one_plain_line(tmp_path: Path) -> None:

@@ -3,8 +3,9 @@
 from pathlib import Path
 
 import pytest
-from commanding import json_lines, make_meshes, make_quick, plain_line, run
-from serving import fake_vocabulary, open_fake_library, settings_for
+
+from tests.commanding import json_lines, make_meshes, make_quick, plain_line, run
+from tests.serving import fake_vocabulary, open_fake_library, settings_for
 
 
 @pytest.fixture(autouse=True)

@@ -2,8 +2,8 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import Delaunay
-from shapes import sheet
 
+from tests.shapes import sheet
 from worker.arrays import FloatArray, IntArray
 from worker.geometry.areas import edge_lengths, triangle_areas
 from worker.geometry.delaunay import intrinsic_delaunay
@@ -29,7 +29,7 @@ def opposite_angle_sums(faces: IntArray, lengths: FloatArray) -> FloatArray:
 def test_in_the_plane_it_is_the_delaunay_triangulation(seed: int) -> None:
     random = np.random.default_rng(seed)
     vertices, faces = sheet(6)
-    inside = np.asarray(np.abs(vertices[:, :2] - 0.5) < 0.49).all(axis=1)
+    inside = np.abs(vertices[:, :2] - 0.5).max(axis=1) < 0.49
     vertices[inside, :2] += random.uniform(-0.04, 0.04, (inside.sum(), 2))  # keeps every triangle upright
     flipped, lengths = intrinsic_delaunay(faces, edge_lengths(vertices, faces))
     np.testing.assert_allclose(lengths, edge_lengths(vertices, flipped), rtol=1e-9)

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
-from shapes import coloured, sphere
 
+from tests.shapes import coloured, sphere
 from worker.arrays import FloatArray, IntArray
 from worker.canonical import Surface, canonical_surface
 from worker.describe import describe, describe_surface, solve_joint

@@ -4,7 +4,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from catalogues import (
+
+from index.errors import BadBlock, FingerprintMismatch, LeaseLost, UnknownVocabulary, VocabularyChanged
+from index.jobs import Job
+from index.shapes import Shape, Status
+from tests.catalogues import (
     FINGERPRINT,
     HISTOGRAM,
     WORDS,
@@ -14,10 +18,6 @@ from catalogues import (
     make_vocabulary,
     open_catalogue,
 )
-
-from index.errors import BadBlock, FingerprintMismatch, LeaseLost, UnknownVocabulary, VocabularyChanged
-from index.jobs import Job
-from index.shapes import Shape, Status
 
 
 @pytest.fixture

@@ -2,13 +2,13 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from catalogues import Opened, add_queued, add_ready, open_catalogue
 from sqlalchemy import func, select
 
 from index.database import reading
 from index.errors import LeaseLost, ShapeNotFound
 from index.shapes import StoredFile
 from index.tables import Base
+from tests.catalogues import Opened, add_queued, add_ready, open_catalogue
 
 
 @pytest.fixture

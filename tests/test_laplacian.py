@@ -2,8 +2,8 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
-from shapes import sheet, sphere
 
+from tests.shapes import sheet, sphere
 from worker.arrays import FloatArray, IntArray
 from worker.descriptors.signatures import heat_kernel_signatures
 from worker.geometry.areas import edge_lengths, triangle_areas, vertex_areas

@@ -2,12 +2,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from catalogues import Opened, add_queued, add_ready, open_catalogue
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from index.errors import BadCursor, ShapeNotFound
 from index.shapes import Status
+from tests.catalogues import Opened, add_queued, add_ready, open_catalogue
 
 
 @pytest.fixture

@@ -3,11 +3,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from catalogues import Opened, add_ready, make_vocabulary, open_catalogue
 
 from index.files import FileStore
 from index.method_index import MethodIndex
 from index.methods import METHODS
+from tests.catalogues import Opened, add_ready, make_vocabulary, open_catalogue
 
 QUERY = {"hks-0": np.array([0.0, 0.0], dtype=np.float32)}
 NEW = make_vocabulary(2)

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from shapes import sheet
 
+from tests.shapes import sheet
 from worker.arrays import FloatArray, IntArray
 from worker.pictures.preview import MOST_BYTES, preview
 

@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
-from test_vocabulary import made_signatures
 
 from index.errors import FingerprintMismatch
 from index.vocabulary import learn_vocabulary
 from service.quantisation import quantise, require_same
+from tests.test_vocabulary import made_signatures
 
 
 def test_bags_sum_to_1_and_distributions_rise() -> None:

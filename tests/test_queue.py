@@ -6,13 +6,13 @@ from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import pytest
-from catalogues import FINGERPRINT, HISTOGRAM, WORDS, Opened, add_queued, open_catalogue
 from sqlalchemy import event
 
 from index.errors import LeaseLost
 from index.jobs import MAX_ATTEMPTS, Job
 from index.queue import Queue
 from index.shapes import Status
+from tests.catalogues import FINGERPRINT, HISTOGRAM, WORDS, Opened, add_queued, open_catalogue
 
 
 class Clock:

@@ -1,8 +1,8 @@
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from shapes import box, sphere
 
+from tests.shapes import box, sphere
 from worker.arrays import FloatArray, IntArray
 from worker.geometry.areas import edge_lengths, face_vectors
 from worker.geometry.edges import find_edges

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
-from shapes import box, sheet, sphere
 
+from tests.shapes import box, sheet, sphere
 from worker.arrays import FloatArray, IntArray
 from worker.geometry.areas import face_vectors
 from worker.geometry.edges import find_edges, lengths_of

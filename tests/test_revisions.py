@@ -3,8 +3,9 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
-from catalogues import Opened, add_queued, add_ready, open_catalogue
 from sqlalchemy import event
+
+from tests.catalogues import Opened, add_queued, add_ready, open_catalogue
 
 
 @pytest.fixture

@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 import pytest
-from catalogues import Opened, add_queued, add_ready, make_vocabulary, open_catalogue
 from sqlalchemy import event
 
 from index.errors import (
@@ -21,6 +20,7 @@ from index.errors import (
 from index.files import FileStore
 from index.methods import METHODS, Method, with_weights
 from index.searcher import Searcher
+from tests.catalogues import Opened, add_queued, add_ready, make_vocabulary, open_catalogue
 
 LENGTHS = {"log-hks": 6, "hks-0": 4, "hks-0.05": 4, "hks-0.1": 4, "colour-histogram": 30, "colour-curves": 9}
 PLAIN = {"colour-histogram", "colour-curves"}

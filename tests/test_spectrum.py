@@ -3,8 +3,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import linalg, sparse
-from shapes import sheet, sphere
 
+from tests.shapes import sheet, sphere
 from worker.arrays import FloatArray
 from worker.descriptors.signatures import heat_kernel_signatures
 from worker.errors import Code, MeshError

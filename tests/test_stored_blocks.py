@@ -3,9 +3,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from catalogues import HISTOGRAM, WORDS, Opened, add_queued, add_ready, open_catalogue
 
 from index.errors import NotReady, ShapeNotFound
+from tests.catalogues import HISTOGRAM, WORDS, Opened, add_queued, add_ready, open_catalogue
 
 
 @pytest.fixture

@@ -4,12 +4,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from catalogues import Opened, add_queued, add_ready, make_vocabulary, open_catalogue
 from sqlalchemy import func, select
 
 from index.database import reading
 from index.errors import BadBlock, FingerprintMismatch, NotReady, ShapeNotFound, UnknownVocabulary
 from index.tables import QuantisedBlockRow
+from tests.catalogues import Opened, add_queued, add_ready, make_vocabulary, open_catalogue
 
 NEW = make_vocabulary(2)
 NEW_WORDS = {"hks-0": np.array([0.1, 0.2, 0.7], dtype=np.float32)}

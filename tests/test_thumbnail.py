@@ -5,8 +5,8 @@ import io
 import numpy as np
 import pytest
 from PIL import Image
-from shapes import SQUARE, coloured, sphere
 
+from tests.shapes import SQUARE, coloured, sphere
 from worker.arrays import ByteArray
 from worker.geometry.repair import repair
 from worker.pictures import thumbnail as module
