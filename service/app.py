@@ -8,20 +8,20 @@ from importlib.metadata import version
 from anyio import to_thread
 from fastapi import APIRouter, Depends, FastAPI
 
-from service.child import ChildLimits
-from service.dependencies import Services, guard
-from service.describing import Describe, describe_files
-from service.errors import add_handlers
-from service.headers import AddSafeHeaders
+from service.http.dependencies import Services, guard
+from service.http.errors import add_handlers
+from service.http.headers import AddSafeHeaders
+from service.http.metrics import CountRequests, Metrics
+from service.http.openapi import DESCRIPTION, SUMMARY, describe_interface
+from service.http.plain_errors import ReplacePlainErrors
+from service.http.routes import contents, events, health, methods, page, search, shapes
+from service.http.turnstile import Turnstile
+from service.jobs.child import ChildLimits
+from service.jobs.describing import Describe, describe_files
+from service.jobs.pool import ProcessPerJob
+from service.jobs.workers import Worker, process_name
 from service.library import Library
-from service.metrics import CountRequests, Metrics
-from service.openapi import DESCRIPTION, SUMMARY, describe_interface
-from service.plain_errors import ReplacePlainErrors
-from service.pool import ProcessPerJob
-from service.routes import contents, events, health, methods, page, search, shapes
 from service.settings import Settings
-from service.turnstile import Turnstile
-from service.workers import Worker, process_name
 
 OpenLibrary = Callable[[Settings], Library]
 

@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from index.shapes import Shape, Status
+from service.intake.submissions import receive_paths
 from service.library import Library
 from service.retrieval import Answer, Question, accept_upload, find_similar
 from service.samples import Sample
-from service.submissions import receive_paths
 
 log = logging.getLogger(__name__)
 

@@ -12,7 +12,7 @@ from index.files import FileStore
 from index.queue import Queue
 from index.searcher import Searcher
 from index.vocabulary import Vocabulary, default_vocabulary
-from service.incoming import Incoming
+from service.intake.incoming import Incoming
 from service.settings import Settings
 from worker.parameters import Parameters
 from worker.reading.limits import Limits

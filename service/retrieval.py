@@ -11,11 +11,11 @@ from index.errors import NotReady, VocabularyChanged
 from index.methods import DEFAULT_METHOD, method, with_weights
 from index.shapes import Shape, Status, StoredFile
 from index.vocabulary import Vocabulary
-from service.describing import Describe, describe_files
+from service.intake.submissions import Submission
+from service.jobs.describing import Describe, describe_files
 from service.library import Library
 from service.quantisation import quantise
 from service.storage import upload_key
-from service.submissions import Submission
 from service.vocabularies import active_vocabulary
 from worker.arrays import SingleArray
 from worker.describe import Description, MeshFacts
@@ -159,7 +159,7 @@ def change_shape(
 
 
 def remove_shape(library: Library, shape_id: str) -> None:
-    """Forget a shape, then delete its files; a crash between the two is cleaned up by `service.sweeping`."""
+    """Forget a shape, then delete its files; `service.jobs.sweeping` ends what a crash leaves half done."""
     files = library.catalogue.remove(shape_id)
     _delete_files(library, files)
     library.files.delete_all(f"shapes/{shape_id}")

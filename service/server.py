@@ -10,11 +10,11 @@ from fastapi import FastAPI
 
 from service.app import child_limits, create_app
 from service.first_run import Report, show_samples
+from service.jobs.pool import ProcessPerJob
+from service.jobs.workers import Worker, process_name
 from service.library import Library
-from service.pool import ProcessPerJob
 from service.samples import make_samples
 from service.settings import Settings
-from service.workers import Worker, process_name
 
 log = logging.getLogger(__name__)
 

@@ -14,8 +14,8 @@ from typer.testing import CliRunner, Result
 
 from service.commands import opening, searching
 from service.commands.main import app
+from service.jobs.workers import Worker
 from service.retrieval import search_upload
-from service.workers import Worker
 from tests.fakes import coloured_triangle, describe_quickly
 from tests.serving import open_fake_library
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from service.describing import FilesOnDisk
+from service.jobs.describing import FilesOnDisk
 from worker.arrays import SingleArray
 from worker.describe import Description, MeshFacts
 from worker.parameters import Parameters

@@ -14,8 +14,8 @@ import uvicorn
 
 from index.vocabulary import Vocabulary, learn_vocabulary
 from service.app import create_app
-from service.dependencies import Services
-from service.describing import Describe
+from service.http.dependencies import Services
+from service.jobs.describing import Describe
 from service.library import Library
 from service.settings import Settings
 from tests.fakes import describe_quickly, fake_signatures

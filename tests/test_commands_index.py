@@ -91,9 +91,7 @@ def test_a_wrong_path_or_an_empty_folder_is_one_plain_line(tmp_path: Path) -> No
 def test_ctrl_c_leaves_a_library_that_goes_on(tmp_path: Path) -> None:
     paths = make_meshes(tmp_path / "in", 3)
     paths[0].rename(tmp_path / "in" / "hang.ply")
-    quick = (
-        f"import pytest; from tests.commanding import make_quick; make_quick(pytest.MonkeyPatch()); {MAIN}"
-    )
+    prepare = "import pytest; from tests.commanding import make_quick; make_quick(pytest.MonkeyPatch())"
     arguments: list[str | Path] = ["index", tmp_path / "in", "--data-dir", tmp_path / "lib"]
     with start(*arguments, script=f"{prepare}; {MAIN}") as process:
         library = _waited_for(tmp_path / "lib", ready=2)

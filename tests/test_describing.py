@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from service.describing import FilesOnDisk, describe_files
+from service.jobs.describing import FilesOnDisk, describe_files
 from tests.fakes import coloured_triangle
 from worker.describe import describe
 from worker.errors import MeshError

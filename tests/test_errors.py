@@ -10,7 +10,7 @@ import pytest
 import index
 import service
 from index.errors import CatalogueError, DamagedIndex, LeaseLost, UnknownVocabulary
-from service.errors import CODES, TABLE
+from service.http.errors import CODES, TABLE
 from tests.problems import problem
 from tests.serving import serving, settings_for
 from worker.errors import MeshError

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from service.incoming import Incoming
+from service.intake.incoming import Incoming
 
 
 def folders(root: Path) -> list[Path]:
@@ -26,7 +26,7 @@ def test_a_scratch_folder_is_gone_afterwards_even_after_an_error(tmp_path: Path)
 
 def test_what_a_killed_process_left_is_swept_by_the_next(tmp_path: Path) -> None:
     script = (
-        "import os, pathlib, sys; from service.incoming import Incoming\n"
+        "import os, pathlib, sys; from service.intake.incoming import Incoming\n"
         "incoming = Incoming(pathlib.Path(sys.argv[1]))\n"
         "with incoming.scratch() as folder:\n"
         "    (folder / 'half').write_bytes(b'x')\n"

@@ -1,6 +1,6 @@
 """Text from the description cannot become markup."""
 
-from service.manual import manual
+from service.http.manual import manual
 
 
 def test_everything_is_escaped() -> None:

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from service.multipart import (
+from service.intake.multipart import (
     BadMultipart,
     FieldTooLong,
     FormLimits,

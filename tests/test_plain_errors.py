@@ -4,9 +4,9 @@ import httpx
 import pytest
 from starlette.responses import PlainTextResponse, Response
 
-from service.headers import SAFE_HEADERS, AddSafeHeaders
-from service.plain_errors import ReplacePlainErrors
-from service.problems import plain_problem
+from service.http.headers import SAFE_HEADERS, AddSafeHeaders
+from service.http.plain_errors import ReplacePlainErrors
+from service.http.problems import plain_problem
 from tests.problems import problem
 
 

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from service.child import ChildError, ChildLimits
-from service.pool import ChildDied, PoolStopped, ProcessPerJob
+from service.jobs.child import ChildError, ChildLimits
+from service.jobs.pool import ChildDied, PoolStopped, ProcessPerJob
 from tests import children
 from worker.errors import Code, MeshError
 
@@ -130,7 +130,7 @@ def test_a_stopped_pool_kills_what_runs_and_says_so(tmp_path: Path) -> None:
 def test_children_compute_with_one_thread_whatever_the_service_does() -> None:
     script = (
         "from tests import children, test_pool\n"
-        "from service.pool import ProcessPerJob\n"
+        "from service.jobs.pool import ProcessPerJob\n"
         "pool = ProcessPerJob(slots=1, limits=test_pool.LIMITS)\n"
         "print(pool.submit(children.threads_of_numpy).result())\n"
     )
@@ -146,7 +146,7 @@ def test_a_child_ends_when_its_service_is_killed(tmp_path: Path) -> None:
     script = (
         "import pathlib\n"
         "from tests import children, test_pool\n"
-        "from service.pool import ProcessPerJob\n"
+        "from service.jobs.pool import ProcessPerJob\n"
         "pool = ProcessPerJob(slots=1, limits=test_pool.LIMITS)\n"
         f"pool.submit(children.write_identity_and_hang, pathlib.Path({str(mark)!r})).result()\n"
     )
@@ -164,7 +164,7 @@ def test_a_command_is_not_imported_again_by_every_child(tmp_path: Path) -> None:
         "import sys\n"
         "open(sys.argv[1], 'a').write('imported ')\n"
         "from tests import children, test_pool\n"
-        "from service.pool import ProcessPerJob\n"
+        "from service.jobs.pool import ProcessPerJob\n"
         "if __name__ == '__main__':\n"
         "    pool = ProcessPerJob(slots=1, limits=test_pool.LIMITS)\n"
         "    for _ in range(2): pool.submit(children.identify).result()\n"

@@ -8,11 +8,11 @@ import pytest
 from index.errors import LeaseLost
 from index.jobs import Job
 from index.shapes import Status
+from service.intake.submissions import receive_paths
+from service.jobs.recording import record_description
 from service.library import Library
-from service.recording import record_description
 from service.retrieval import accept_upload, remove_shape
 from service.storage import PREVIEW, SIGNATURES, THUMBNAIL, load_signatures
-from service.submissions import receive_paths
 from tests.fakes import coloured_triangle, describe_quickly
 from tests.serving import open_fake_library, settings_for
 from worker.describe import Description

@@ -7,9 +7,9 @@ import pytest
 
 from index.errors import CatalogueBusy, ShapeNotFound
 from index.shapes import Status
+from service.intake.submissions import Submission, receive_paths
 from service.library import Library
 from service.retrieval import accept_upload, change_shape, remove_shape
-from service.submissions import Submission, receive_paths
 from tests.fakes import coloured_triangle
 from tests.serving import open_fake_library, settings_for
 from worker.errors import MeshError

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from service.submissions import ReceivedFile, Submission, receive_paths, safe_name
+from service.intake.submissions import ReceivedFile, Submission, receive_paths, safe_name
 from worker.errors import MeshError
 
 

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
+from service.intake.submissions import receive_paths
+from service.jobs.sweeping import sweep
 from service.library import Library
 from service.retrieval import accept_upload
-from service.submissions import receive_paths
-from service.sweeping import sweep
 from tests.fakes import coloured_triangle
 from tests.serving import open_fake_library, settings_for
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from service.turnstile import TooBusy, Turnstile
+from service.http.turnstile import TooBusy, Turnstile
 
 
 def test_one_more_than_the_places_is_refused_until_one_leaves() -> None:

@@ -125,7 +125,7 @@ def test_a_disk_that_fills_up_during_an_upload_is_told_and_recovers(
         raise OSError(28, "No space left on device")
 
     with monkeypatch.context() as broken:
-        broken.setattr("service.multipart._FilePart.add", full)
+        broken.setattr("service.intake.multipart._FilePart.add", full)
         problem(service.add({"a.ply": coloured_triangle()}, wait=0), 507, "storage_full")
     assert left(service) == []
     assert service.add({"a.ply": coloured_triangle()}, wait=0).status_code == 202

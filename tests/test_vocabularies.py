@@ -9,12 +9,12 @@ import pytest
 
 from index.errors import BadVocabulary
 from index.shapes import Status
+from service.intake.submissions import receive_paths
+from service.jobs.recording import record_description
 from service.library import Library
 from service.quantisation import quantise
-from service.recording import record_description
 from service.retrieval import Question, accept_upload, find_similar
 from service.storage import load_signatures
-from service.submissions import receive_paths
 from service.vocabularies import NoVocabulary, active_vocabulary, adopt_vocabulary, learn_vocabulary
 from tests.fakes import coloured_triangle, describe_quickly
 from tests.serving import fake_vocabulary, open_fake_library, settings_for

@@ -12,11 +12,11 @@ import pytest
 from index.errors import CatalogueBusy, StorageFull
 from index.shapes import Shape, Status
 from service.app import child_limits
+from service.intake.submissions import receive_paths
+from service.jobs.pool import ProcessPerJob
+from service.jobs.workers import Worker
 from service.library import Library
-from service.pool import ProcessPerJob
 from service.retrieval import accept_upload, remove_shape
-from service.submissions import receive_paths
-from service.workers import Worker
 from tests.fakes import coloured_triangle, describe_quickly
 from tests.serving import open_fake_library, settings_for, wait_until
 

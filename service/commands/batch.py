@@ -8,9 +8,9 @@ from enum import StrEnum
 from index.shapes import Shape, Status
 from service.commands.companions import Companions
 from service.commands.discovery import Found, Source
+from service.intake.submissions import receive_paths
 from service.library import Library
 from service.retrieval import accept_upload
-from service.submissions import receive_paths
 from worker.errors import MeshError
 
 LOOK_EVERY = 0.1  # seconds between two looks at what the worker has done

@@ -5,7 +5,7 @@ from pydantic import ValidationError
 from sqlalchemy.exc import SQLAlchemyError
 
 from index.errors import CatalogueError
-from service.pool import ChildDied, PoolStopped
+from service.jobs.pool import ChildDied, PoolStopped
 from service.settings import UnsafeListening
 from service.vocabularies import NoVocabulary
 from worker.errors import MeshError

@@ -8,10 +8,10 @@ from typing import Any
 
 from service.app import child_limits
 from service.commands.failures import CommandFailed
+from service.jobs.pool import ProcessPerJob
+from service.jobs.workers import Worker, process_name
 from service.library import Library
-from service.pool import ProcessPerJob
 from service.settings import Settings
-from service.workers import Worker, process_name
 
 
 def settings_for(data_dir: Path, **changes: Any) -> Settings:

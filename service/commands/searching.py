@@ -14,10 +14,10 @@ from service.commands.discovery import Source, find_sources
 from service.commands.explaining import explain
 from service.commands.failures import CommandFailed, say
 from service.commands.opening import opened, pool_for, settings_for
+from service.intake.submissions import Submission, receive_paths
+from service.jobs.pool import ProcessPerJob
 from service.library import Library
-from service.pool import ProcessPerJob
 from service.retrieval import Answer, Question, check_question, search_upload
-from service.submissions import Submission, receive_paths
 
 
 def search_files(

@@ -6,11 +6,11 @@ from fastapi import APIRouter
 from starlette.responses import FileResponse
 
 from index.errors import FileMissing
-from service.dependencies import LibraryPart
+from service.descriptors import shape_numbers
+from service.http.dependencies import LibraryPart
+from service.http.openapi import binary, problems
+from service.http.schemas import DescriptorsModel
 from service.library import Library
-from service.numbers import shape_numbers
-from service.openapi import binary, problems
-from service.schemas import DescriptorsModel
 from service.storage import PREVIEW, THUMBNAIL, derived_key
 
 router = APIRouter(tags=["contents"])

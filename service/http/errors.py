@@ -11,10 +11,11 @@ from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse
 
 from index import errors as kept
-from service.child import ChildError
-from service.fields import BadField
-from service.guards import CrossOrigin, Unauthorised
-from service.multipart import (
+from service.http.fields import BadField
+from service.http.guards import CrossOrigin, Unauthorised
+from service.http.problems import plain_problem, problem
+from service.http.turnstile import TooBusy
+from service.intake.multipart import (
     BadMultipart,
     FieldTooLong,
     IncompleteBody,
@@ -22,11 +23,10 @@ from service.multipart import (
     TooManyFiles,
     UploadRefused,
 )
-from service.pool import ChildDied, PoolStopped
-from service.problems import plain_problem, problem
-from service.recording import GAVE_UP, UNEXPECTED, UNEXPECTED_DETAIL
-from service.turnstile import TooBusy
-from service.uploads import BodyTooLarge, SlowBody
+from service.intake.uploads import BodyTooLarge, SlowBody
+from service.jobs.child import ChildError
+from service.jobs.pool import ChildDied, PoolStopped
+from service.jobs.recording import GAVE_UP, UNEXPECTED, UNEXPECTED_DETAIL
 from service.vocabularies import NoVocabulary
 from worker.errors import MeshError
 

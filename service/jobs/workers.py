@@ -11,12 +11,12 @@ from dataclasses import dataclass
 
 from index.errors import CatalogueBusy, LeaseLost, ShapeNotFound, StorageFull
 from index.jobs import Job
-from service.child import ChildError
-from service.describing import Describe, describe_files
+from service.jobs.child import ChildError
+from service.jobs.describing import Describe, describe_files
+from service.jobs.pool import ChildDied, PoolStopped
+from service.jobs.recording import GAVE_UP, UNEXPECTED, UNEXPECTED_DETAIL, record_description
+from service.jobs.sweeping import sweep
 from service.library import Library
-from service.pool import ChildDied, PoolStopped
-from service.recording import GAVE_UP, UNEXPECTED, UNEXPECTED_DETAIL, record_description
-from service.sweeping import sweep
 from worker.describe import Description
 from worker.errors import MeshError
 
@@ -50,7 +50,7 @@ class Worker:
     Parameters
     ----------
     executor : Executor
-        `service.pool.ProcessPerJob`, or that of a cluster which sees the same files.
+        `service.jobs.pool.ProcessPerJob`, or that of a cluster which sees the same files.
     slots : int
         Jobs at the same time.
     describe : callable

@@ -5,8 +5,8 @@ from prometheus_client import CONTENT_TYPE_LATEST
 from pydantic import BaseModel
 from starlette.responses import Response
 
-from service.dependencies import LibraryPart, ServicesPart, guard
-from service.openapi import problems
+from service.http.dependencies import LibraryPart, ServicesPart, guard
+from service.http.openapi import problems
 
 router = APIRouter(tags=["health"])
 

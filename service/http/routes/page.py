@@ -6,7 +6,7 @@ from fastapi import APIRouter, Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 
 from index.errors import FileMissing
-from service.manual import manual
+from service.http.manual import manual
 
 router = APIRouter(include_in_schema=False)
 

@@ -9,10 +9,10 @@ from anyio import to_thread
 from fastapi import APIRouter, Header, Query
 from sse_starlette import EventSourceResponse, ServerSentEvent
 
-from service.dependencies import LibraryPart
+from service.http.dependencies import LibraryPart
+from service.http.openapi import problems
+from service.http.schemas import ShapeModel
 from service.library import Library
-from service.openapi import problems
-from service.schemas import ShapeModel
 
 router = APIRouter(tags=["events"])
 

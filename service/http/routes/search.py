@@ -3,12 +3,12 @@
 from anyio import to_thread
 from fastapi import APIRouter, Request
 
-from service.dependencies import LibraryPart, QuestionPart, Services, ServicesPart
-from service.openapi import form_body, problems
+from service.http.dependencies import LibraryPart, QuestionPart, Services, ServicesPart
+from service.http.openapi import form_body, problems
+from service.http.schemas import AnswerModel
+from service.intake.submissions import Submission
+from service.intake.uploads import receiving
 from service.retrieval import Answer, Question, find_similar, search_upload
-from service.schemas import AnswerModel
-from service.submissions import Submission
-from service.uploads import receiving
 
 router = APIRouter(tags=["search"])
 

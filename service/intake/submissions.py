@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from service.describing import FilesOnDisk
+from service.jobs.describing import FilesOnDisk
 from worker.errors import Code, MeshError
 from worker.reading.upload import Upload
 

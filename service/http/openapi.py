@@ -6,8 +6,8 @@ from typing import Any
 from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
 
-from service.problems import MEDIA_TYPE
-from service.schemas import ProblemModel
+from service.http.problems import MEDIA_TYPE
+from service.http.schemas import ProblemModel
 
 SUMMARY = "Search engine for coloured 3D shapes"
 DESCRIPTION = """\

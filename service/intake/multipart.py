@@ -10,7 +10,7 @@ from python_multipart import MultipartParser
 from python_multipart.exceptions import FormParserError
 from python_multipart.multipart import parse_options_header
 
-from service.submissions import ReceivedFile, safe_name
+from service.intake.submissions import ReceivedFile, safe_name
 
 Value = TypeVar("Value")
 

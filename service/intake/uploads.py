@@ -9,11 +9,11 @@ import anyio
 from anyio import to_thread
 from starlette.requests import ClientDisconnect, Request
 
-from service.fields import BadField, check_name, read_flag, read_metadata
+from service.http.fields import BadField, check_name, read_flag, read_metadata
+from service.intake.multipart import FormLimits, FormReceiver, IncompleteBody, UploadRefused
+from service.intake.submissions import Submission
 from service.library import Library
-from service.multipart import FormLimits, FormReceiver, IncompleteBody, UploadRefused
 from service.settings import Settings
-from service.submissions import Submission
 
 FIELDS = frozenset({"name", "metadata", "allow_untextured"})
 

@@ -6,7 +6,7 @@ from starlette.datastructures import Headers
 from starlette.responses import Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from service.problems import MEDIA_TYPE, plain_problem
+from service.http.problems import MEDIA_TYPE, plain_problem
 
 
 class ReplacePlainErrors:

@@ -7,13 +7,13 @@ from anyio import to_thread
 from fastapi import APIRouter, Query, Request, Response
 
 from index.shapes import Shape, Status
-from service.dependencies import LibraryPart, ServicesPart
-from service.fields import check_metadata, check_name
+from service.http.dependencies import LibraryPart, ServicesPart
+from service.http.fields import check_metadata, check_name
+from service.http.openapi import form_body, problems
+from service.http.schemas import ShapeChange, ShapeModel, ShapesModel
+from service.intake.uploads import receiving
 from service.library import Library
-from service.openapi import form_body, problems
 from service.retrieval import accept_upload, change_shape, remove_shape
-from service.schemas import ShapeChange, ShapeModel, ShapesModel
-from service.uploads import receiving
 
 router = APIRouter(tags=["shapes"])
 

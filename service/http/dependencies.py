@@ -9,13 +9,13 @@ from fastapi import Depends, Query, Request
 from fastapi.security import HTTPAuthorizationCredentials
 
 from index.methods import DEFAULT_METHOD
-from service.describing import Describe
-from service.fields import read_weights
-from service.guards import bearer, check_key, check_origin
+from service.http.fields import read_weights
+from service.http.guards import bearer, check_key, check_origin
+from service.http.metrics import Metrics
+from service.http.turnstile import Turnstile
+from service.jobs.describing import Describe
 from service.library import Library
-from service.metrics import Metrics
 from service.retrieval import Question
-from service.turnstile import Turnstile
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -1,7 +1,7 @@
 """An executor that gives every job a process of its own, so that one job can only harm itself.
 
 A process comes from a preloaded fork server (about ten milliseconds), runs one function and ends. It is
-killed at its wall limit; memory and processor time are limited by the kernel (see `service.child`).
+killed at its wall limit; memory and processor time are limited by the kernel (see `service.jobs.child`).
 """
 
 import contextlib
@@ -16,7 +16,7 @@ from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerProcess
 from typing import Any, TypeVar
 
-from service.child import ChildLimits, answer
+from service.jobs.child import ChildLimits, answer
 from worker.errors import Code, MeshError
 
 Value = TypeVar("Value")
@@ -38,7 +38,7 @@ class ProcessPerJob(Executor):
     """Runs each submitted function in a fresh process, at most ``slots`` at a time.
 
     A future of this pool raises `worker.errors.MeshError` (``too_complex``) for a job over its limits,
-    `ChildDied` for a process that ended on its own, `service.child.ChildError` for a defect in the
+    `ChildDied` for a process that ended on its own, `service.jobs.child.ChildError` for a defect in the
     function, `PoolStopped` when the pool was shut down.
 
     Parameters
@@ -51,7 +51,7 @@ class ProcessPerJob(Executor):
 
     def __init__(self, *, slots: int, limits: ChildLimits) -> None:
         self._context = multiprocessing.get_context("forkserver")
-        self._context.set_forkserver_preload(["service.preload"])
+        self._context.set_forkserver_preload(["service.jobs.preload"])
         self._limits = limits
         self._threads = ThreadPoolExecutor(max_workers=slots, thread_name_prefix="job")
         self._children: set[ForkServerProcess] = set()

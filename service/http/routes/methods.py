@@ -3,8 +3,8 @@
 from fastapi import APIRouter
 
 from index.methods import DEFAULT_METHOD, METHODS
-from service.openapi import problems
-from service.schemas import MethodModel, MethodsModel
+from service.http.openapi import problems
+from service.http.schemas import MethodModel, MethodsModel
 
 router = APIRouter(tags=["search"])
 

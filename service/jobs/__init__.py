@@ -1,0 +1,1 @@
+"""Jobs: claimed, computed in processes of their own, recorded."""
