@@ -14,6 +14,7 @@ from worker.geometry.areas import face_vectors, unit
 from worker.geometry.edges import Edges, find_edges, lengths_of
 
 SHARE = 0.4  # of the edges, the shortest, may collapse in a round
+SHUFFLE = 1.3  # how much longer an edge may look by chance
 PENALTY = 2.0  # by which the edges at a vertex look longer after each refused collapse
 GIVE_UP = 1e3  # penalty from which an edge is left alone
 MIDDLE = 1e-2  # pull of the middle of the edge, relative to the quadric
@@ -96,7 +97,9 @@ def _choose(surface: _Surface, edges: Edges, most: int, longest: float) -> IntAr
     """Pick the shortest edges that are alone in their neighbourhood and may collapse."""
     worst = surface.penalties[edges.ends].max(axis=1)
     lengths = lengths_of(surface.vertices, edges)
-    costs = np.where((worst > GIVE_UP) | (lengths > longest), np.inf, lengths * worst)
+    # Where lengths are equal or rise along the surface, few edges would be shorter than all around them.
+    shuffle = np.random.default_rng(len(lengths)).uniform(1.0, SHUFFLE, len(lengths))
+    costs = np.where((worst > GIVE_UP) | (lengths > longest), np.inf, lengths * worst * shuffle)
     shortest = np.argsort(costs, kind="stable")[: max(1, int(SHARE * len(costs)))]
     shortest = shortest[np.isfinite(costs[shortest])]
     chosen = shortest[_alone(edges.ends, edges.ends[shortest], len(surface.vertices))]
