@@ -113,6 +113,8 @@ class MethodIndex:
 
     def _load(self, state: CatalogueState) -> Vectors | None:
         """Return what the file holds and is still true, completed; None where it cannot be used."""
+        if not self._store.path(self._key).exists():
+            return None
         revisions = self._catalogue.ready_revisions()
         try:
             with opened_index(self._store.path(self._key)) as (header, pieces):

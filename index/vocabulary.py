@@ -23,6 +23,8 @@ N_WORDS = {"log-hks": 64}  # of each block; 48, the paper's number, for the othe
 PAPER_WORDS = 48
 GRIDS = ("diffusion-geometric", "diffusion-joint")
 GRID_POINTS = 128
+SHORTEST = 0.005  # quantile of all distances at which a grid begins
+PER_GRID = 128  # quantiles of a shape's distances that a grid is made from
 STANDARDISED = ("log-hks",)  # blocks whose dimensions have no common unit
 PER_SHAPE = 400  # signatures drawn from a shape, in proportion to area
 STARTS = 3  # of k-means; the best is kept
@@ -142,9 +144,9 @@ def learn_vocabulary(
     BadVocabulary
         Where the shapes show fewer different signatures than there are words.
     """
-    samples, longest = _gather(shapes, np.random.default_rng(seed))
+    samples, distances = _gather(shapes, np.random.default_rng(seed))
     words = {block: learn_words(parts, block, softness, seed) for block, parts in samples.items()}
-    grids = {block: np.linspace(0.0, end, GRID_POINTS + 1)[1:] for block, end in longest.items()}
+    grids = {block: _grid(pooled) for block, pooled in distances.items()}
     return Vocabulary(fingerprint=fingerprint, words=words, grids=grids)
 
 
@@ -170,21 +172,29 @@ def softness_of(words: FloatArray, rule: Softness) -> float:
 
 def _gather(
     shapes: Iterable[Mapping[str, SingleArray]], random: np.random.Generator
-) -> tuple[dict[str, FloatArray], dict[str, float]]:
-    """Draw signatures of every block by area, and find the 99th percentile of the longest distances."""
+) -> tuple[dict[str, FloatArray], dict[str, FloatArray]]:
+    """Draw signatures of every block by area, and quantiles of distances evenly."""
     draws: dict[str, list[FloatArray]] = {}
-    ends: dict[str, list[float]] = {}
+    distances: dict[str, list[FloatArray]] = {}
     for signatures in shapes:
         areas = np.asarray(signatures["areas"], np.float64)
         rows = random.choice(len(areas), PER_SHAPE, p=areas / areas.sum())
         for block in _word_blocks(signatures):
             draws.setdefault(block, []).append(np.asarray(signatures[block][rows], np.float64))
         for block in GRIDS:
-            ends.setdefault(block, []).append(float(signatures[block][-1]))
+            quantiles = np.asarray(signatures[block], np.float64)
+            distances.setdefault(block, []).append(quantiles[:: max(1, len(quantiles) // PER_GRID)])
     if not draws:
         raise BadVocabulary("A vocabulary is learnt from shapes; there is none that is ready.")
-    longest = {block: float(np.quantile(values, 0.99)) for block, values in ends.items()}
-    return {block: np.vstack(parts) for block, parts in draws.items()}, longest
+    pooled = {block: np.concatenate(parts) for block, parts in distances.items()}
+    return {block: np.vstack(parts) for block, parts in draws.items()}, pooled
+
+
+def _grid(distances: FloatArray) -> FloatArray:
+    """Spread a grid over the distances of all shapes, in equal ratios: joint ones span many orders of ten."""
+    longest = max(float(distances.max()), float(np.finfo(np.float32).tiny))
+    shortest = max(float(np.quantile(distances, SHORTEST)), 1e-9 * longest)
+    return np.exp(np.linspace(np.log(shortest), np.log(longest), GRID_POINTS))
 
 
 def _word_blocks(signatures: Mapping[str, SingleArray]) -> Iterator[str]:
