@@ -43,7 +43,7 @@ METHODS = _table(
     Method(
         name="fused",
         blocks=(
-            # the divisors bring the three distances to one scale (DESIGN: measured on 1 540 queries)
+            # the divisors bring the three distances to one scale
             Block(name="log-hks", weight=1 / 0.587, power=1),
             Block(name="colour-histogram", weight=1 / 1.87, power=1),
             Block(name="colour-curves", weight=1 / 150.5, power=1),
