@@ -27,6 +27,7 @@ SHORTEST = 0.005  # quantile of all distances at which a grid begins
 PER_GRID = 128  # quantiles of a shape's distances that a grid is made from
 STANDARDISED = ("log-hks",)  # blocks whose dimensions have no common unit
 PER_SHAPE = 400  # signatures drawn from a shape, in proportion to area
+MOST = 100_000  # signatures in all: of a large library each shape gives fewer
 STARTS = 3  # of k-means; the best is kept
 ROUNDS = 60  # of k-means
 
@@ -176,14 +177,18 @@ def _gather(
     """Draw signatures of every block by area, and quantiles of distances evenly."""
     draws: dict[str, list[FloatArray]] = {}
     distances: dict[str, list[FloatArray]] = {}
-    for signatures in shapes:
+    per_shape = PER_SHAPE
+    for n_shapes, signatures in enumerate(shapes, 1):
         areas = np.asarray(signatures["areas"], np.float64)
-        rows = random.choice(len(areas), PER_SHAPE, p=areas / areas.sum())
+        rows = random.choice(len(areas), per_shape, p=areas / areas.sum())
         for block in _word_blocks(signatures):
             draws.setdefault(block, []).append(np.asarray(signatures[block][rows], np.float64))
         for block in GRIDS:
             quantiles = np.asarray(signatures[block], np.float64)
             distances.setdefault(block, []).append(quantiles[:: max(1, len(quantiles) // PER_GRID)])
+        if n_shapes * per_shape > MOST and per_shape > 1:
+            per_shape //= 2
+            draws = {block: [part[:per_shape] for part in parts] for block, parts in draws.items()}
     if not draws:
         raise BadVocabulary("A vocabulary is learnt from shapes; there is none that is ready.")
     pooled = {block: np.concatenate(parts) for block, parts in distances.items()}

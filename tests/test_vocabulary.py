@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from index.errors import BadVocabulary
-from index.vocabulary import Softness, Vocabulary, default_vocabulary, learn_vocabulary, softness_of
+from index.vocabulary import Softness, Vocabulary, Words, default_vocabulary, learn_vocabulary, softness_of
 from worker.parameters import Parameters
 
 Signatures = dict[str, np.ndarray]
@@ -71,6 +71,22 @@ def test_what_has_no_area_is_not_learnt() -> None:
     signatures["log-hks"][1_000:] = 7.0
     words = learn_vocabulary([signatures], "f").words["log-hks"]
     assert words.centre.max() < 0.0
+
+
+def test_a_large_library_is_learnt_from_a_bounded_number_of_signatures(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    taken: list[int] = []
+
+    def counted(samples: np.ndarray, *_: object) -> Words:
+        taken.append(len(samples))
+        return Words(words=samples[:2], centre=samples[0], spread=samples[0], softness=1.0)
+
+    monkeypatch.setattr("index.vocabulary.learn_words", counted)
+    monkeypatch.setattr("index.vocabulary.MOST", 1_000)
+    learn_vocabulary((made_signatures(seed, 50) for seed in range(40)), "f")
+    assert len(set(taken)) == 1
+    assert 400 < taken[0] <= 1_000
 
 
 def test_too_few_shapes_are_refused_in_plain_words() -> None:
