@@ -8,7 +8,7 @@ from worker.pictures.clustering import cluster
 
 
 @given(seed=st.integers(0, 1000), cubes=st.integers(1, 20))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_the_result_is_a_mesh_within_the_old_bounds(seed: int, cubes: int) -> None:
     generator = np.random.default_rng(seed)
     vertices, colours = generator.normal(size=(60, 3)), generator.uniform(size=(60, 3))

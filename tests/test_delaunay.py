@@ -1,5 +1,5 @@
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial import Delaunay
 
@@ -24,7 +24,6 @@ def opposite_angle_sums(faces: IntArray, lengths: FloatArray) -> FloatArray:
     return np.bincount(inverse, angles).astype(np.float64)
 
 
-@settings(deadline=None)
 @given(st.integers(0, 2**32 - 1))
 def test_in_the_plane_it_is_the_delaunay_triangulation(seed: int) -> None:
     random = np.random.default_rng(seed)

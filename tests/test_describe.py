@@ -78,7 +78,7 @@ def test_a_mesh_without_faces_is_refused_by_its_code() -> None:
     assert refusal.value.code is Code.NO_FACES
 
 
-@settings(deadline=None, max_examples=3)
+@settings(max_examples=3)
 @given(st.integers(0, 2**32 - 1), st.floats(1e-3, 1e3))
 def test_turning_moving_and_scaling_a_file_hardly_changes_its_blocks(seed: int, scale: float) -> None:
     random = np.random.default_rng(seed)

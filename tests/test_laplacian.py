@@ -29,7 +29,7 @@ def bumpy() -> tuple[FloatArray, IntArray]:
     return normalise_area(vertices, faces, PARAMETERS.surface_area), faces
 
 
-@settings(deadline=None, max_examples=3)
+@settings(max_examples=3)
 @given(st.integers(0, 2**32 - 1))
 def test_hks_is_the_same_when_turned_moved_and_numbered_anew(seed: int) -> None:
     random = np.random.default_rng(seed)

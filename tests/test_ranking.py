@@ -67,7 +67,7 @@ def libraries(draw: st.DrawFn) -> tuple[Layout, list[str], Rows, Rows]:
 
 
 @given(library=libraries(), limit=st.integers(0, 420), seed=st.integers(0, 99))
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 def test_the_certified_answer_is_that_of_brute_force_ties_included(
     library: tuple[Layout, list[str], Rows, Rows], limit: int, seed: int
 ) -> None:
@@ -79,7 +79,6 @@ def test_the_certified_answer_is_that_of_brute_force_ties_included(
 
 
 @given(library=libraries(), limit=st.integers(1, 50), data=st.data())
-@settings(deadline=None)
 def test_own_weights_give_the_answer_of_brute_force(
     library: tuple[Layout, list[str], Rows, Rows], limit: int, data: st.DataObject
 ) -> None:
@@ -98,7 +97,7 @@ def test_own_weights_give_the_answer_of_brute_force(
     scale=st.sampled_from([1e-42, 1e-30, 1e-3, 1.0, 1e10, 1e30, 3e38]),
     offset=st.sampled_from([0.0, 1.0]),
 )
-@settings(max_examples=120, deadline=None)
+@settings(max_examples=120)
 def test_numbers_of_any_size_rank_as_comparing_all_does(
     seed: int, power: int, scale: float, offset: float
 ) -> None:

@@ -26,7 +26,7 @@ def _brute_force(pixels: FloatArray, depths: FloatArray, faces: IntArray, size: 
 
 
 @given(seed=st.integers(0, 10_000), chunk=st.sampled_from([1, 7, 400_000]))
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 def test_the_nearest_triangle_is_seen_at_every_pixel(seed: int, chunk: int) -> None:
     generator = np.random.default_rng(seed)
     size, pixels = 7, generator.uniform(-3, 10, (9, 2))

@@ -1,5 +1,5 @@
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.shapes import box, sphere
@@ -13,7 +13,6 @@ def area(vertices: FloatArray, faces: IntArray) -> float:
     return float(np.linalg.norm(face_vectors(vertices, faces), axis=1).sum())
 
 
-@settings(deadline=None)
 @given(st.floats(0.02, 2.0))
 def test_no_edge_stays_longer_than_allowed_and_the_area_stays(longest: float) -> None:
     vertices, faces, _ = box()

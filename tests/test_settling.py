@@ -18,7 +18,7 @@ def _checkered(inside: BoolArray) -> int:
 
 
 @given(seed=st.integers(0, 10_000))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_single_flaws_are_mended_and_sizes_kept(seed: int) -> None:
     generator = np.random.default_rng(seed)
     x, y, z = np.meshgrid(*[np.linspace(-2, 2, 9)] * 3, indexing="ij")

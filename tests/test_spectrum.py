@@ -76,7 +76,7 @@ def test_sparse_and_dense_solvers_agree() -> None:
     np.testing.assert_allclose(found, expected, rtol=1e-8, atol=1e-12)
 
 
-@settings(deadline=None, max_examples=25)
+@settings(max_examples=25)
 @given(st.integers(0, 2**32 - 1), st.floats(0.01, 30.0))
 def test_the_inertia_counts_the_eigenvalues(seed: int, value: float) -> None:
     vertices, faces = sheet(7)

@@ -1,6 +1,6 @@
 import numpy as np
 import numpy.typing as npt
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from index.layout import Layout
@@ -27,7 +27,6 @@ steps = st.lists(
 
 
 @given(steps=steps)
-@settings(deadline=None)
 def test_after_any_changes_the_vectors_are_those_of_a_dictionary(
     steps: list[tuple[str, set[int]]],
 ) -> None:
