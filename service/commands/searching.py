@@ -109,7 +109,8 @@ def _line(path: Path, answer: Answer) -> str:
 def answer_table(title: str, answer: Answer) -> Table:
     """Return a ranked answer as a table."""
     identity = Column("id", no_wrap=True, min_width=32)
-    table = Table("rank", "distance", "name", identity, title=title.replace("[", r"\["), title_justify="left")
+    named = Column("name", overflow="fold")  # the end of a path tells more than its beginning
+    table = Table("rank", "distance", named, identity, title=title.replace("[", r"\["), title_justify="left")
     for hit in answer.hits:
         name = hit.shape.name.replace("[", r"\[")
         table.add_row(str(hit.rank), f"{hit.distance:.4f}", name, hit.shape.id)
