@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from service.http.fields import (
+from service.intake.fields import (
     BadField,
     BadMetadata,
     UnreadableWeights,

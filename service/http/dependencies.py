@@ -9,10 +9,10 @@ from fastapi import Depends, Query, Request
 from fastapi.security import HTTPAuthorizationCredentials
 
 from index.methods import DEFAULT_METHOD
-from service.http.fields import read_weights
 from service.http.guards import bearer, check_key, check_origin
 from service.http.metrics import Metrics
 from service.http.turnstile import Turnstile
+from service.intake.fields import read_weights
 from service.jobs.describing import Describe
 from service.library import Library
 from service.retrieval import Question

@@ -11,10 +11,10 @@ from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse
 
 from index import errors as kept
-from service.http.fields import BadField
 from service.http.guards import CrossOrigin, Unauthorised
 from service.http.problems import plain_problem, problem
 from service.http.turnstile import TooBusy
+from service.intake.fields import BadField
 from service.intake.multipart import (
     BadMultipart,
     FieldTooLong,

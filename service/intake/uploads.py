@@ -9,7 +9,7 @@ import anyio
 from anyio import to_thread
 from starlette.requests import ClientDisconnect, Request
 
-from service.http.fields import BadField, check_name, read_flag, read_metadata
+from service.intake.fields import BadField, check_name, read_flag, read_metadata
 from service.intake.multipart import FormLimits, FormReceiver, IncompleteBody, UploadRefused
 from service.intake.submissions import Submission
 from service.library import Library

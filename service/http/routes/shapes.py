@@ -8,9 +8,9 @@ from fastapi import APIRouter, Query, Request, Response
 
 from index.shapes import Shape, Status
 from service.http.dependencies import LibraryPart, ServicesPart
-from service.http.fields import check_metadata, check_name
 from service.http.openapi import form_body, problems
 from service.http.schemas import ShapeChange, ShapeModel, ShapesModel
+from service.intake.fields import check_metadata, check_name
 from service.intake.uploads import receiving
 from service.library import Library
 from service.retrieval import accept_upload, change_shape, remove_shape
