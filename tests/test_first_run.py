@@ -33,6 +33,15 @@ def test_samples_are_indexed_and_one_ranked_answer_is_told(service: Serving) -> 
     }
 
 
+def test_a_later_run_adds_nothing_and_tells_the_answer_again(service: Serving) -> None:
+    first: list[str] = []
+    later: list[str] = []
+    show_samples(service.library, SAMPLES, lambda: False, first.append)
+    show_samples(service.library, SAMPLES, lambda: False, later.append)
+    assert [line.split()[1:] for line in later[1:]] == [line.split()[1:] for line in first[2:]]
+    assert len(service.client.get("/v1/shapes").json()["items"]) == len(SAMPLES)
+
+
 def test_a_library_that_holds_something_is_left_alone(service: Serving) -> None:
     service.add({"own.ply": coloured_triangle(5)})
     told: list[str] = []
