@@ -14,6 +14,7 @@ from service.samples import Sample
 log = logging.getLogger(__name__)
 
 Report = Callable[[str], None]  # takes a line for the user
+MARK = "creature"  # what the metadata of every sample holds
 LOOK_EVERY = 0.2  # seconds
 
 
@@ -31,16 +32,18 @@ def add_samples(library: Library, samples: Iterable[Sample]) -> list[Shape]:
 
 
 def show_samples(
-    library: Library, samples: Iterable[Sample], stopped: Callable[[], bool], report: Report
+    library: Library, samples: Iterable[Sample], count: int, stopped: Callable[[], bool], report: Report
 ) -> None:
     """Fill an empty library, wait until all is described, then report one ranked answer; later only that.
 
     Parameters
     ----------
+    count : int
+        Samples in all.
     stopped : callable
         Whether to give up, because the service is ending.
     """
-    if sum(library.catalogue.counts().values()) == 0:
+    if lacks_samples(library, count):
         report("The library is empty: making the sample creatures and indexing them.")
         shapes = add_samples(library, samples)
     else:
@@ -50,6 +53,13 @@ def show_samples(
     answer = find_similar(library, shapes[0].id, Question(limit=5))
     for line in _lines(shapes[0], answer):
         report(line)
+
+
+def lacks_samples(library: Library, count: int) -> bool:
+    """Tell whether there is nothing here but a part of the samples: none, or what a stopped run left."""
+    if sum(library.catalogue.counts().values()) >= count:
+        return False
+    return all(MARK in shape.metadata for shape in library.catalogue.list(limit=count).items)
 
 
 def _already_here(library: Library, samples: Iterable[Sample]) -> list[Shape]:

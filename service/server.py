@@ -13,7 +13,7 @@ from service.first_run import Report, show_samples
 from service.jobs.pool import ProcessPerJob
 from service.jobs.workers import Worker, process_name
 from service.library import Library
-from service.samples import make_samples
+from service.samples import count_samples, make_samples
 from service.settings import Settings
 
 log = logging.getLogger(__name__)
@@ -73,7 +73,9 @@ def _accompany(app: FastAPI, server: uvicorn.Server, samples: bool, report: Repo
     if not samples:
         return
     try:
-        show_samples(app.state.services.library, make_samples(), lambda: server.should_exit, report)
+        show_samples(
+            app.state.services.library, make_samples(), count_samples(), lambda: server.should_exit, report
+        )
     except Exception:  # the samples are a courtesy; the service goes on
         log.exception("the sample library could not be made")
 

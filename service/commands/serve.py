@@ -39,6 +39,7 @@ def serve(
     with plain_failures():
         from service.commands.opening import opened, settings_for  # heavy; --help must not wait for it
         from service.commands.watching import watching
+        from service.first_run import lacks_samples
         from service.samples import count_samples
         from service.server import run_server
 
@@ -46,7 +47,7 @@ def serve(
         settings.check_listening()
         check_address(settings.host, settings.port)
         with opened(settings, make=True) as library:  # what is wrong with it is said before anything starts
-            new = sum(library.catalogue.counts().values()) == 0
+            new = lacks_samples(library, count_samples())
         show = samples and new and settings.workers > 0
         with watching(settings, "Samples", count_samples()) if show else contextlib.nullcontext():
             run_server(settings, settings.workers, samples, reporter(json))
