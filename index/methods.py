@@ -32,6 +32,7 @@ class Method:
 
 
 DEFAULT_METHOD = "fused"
+MOST = 1e9  # of a user's own weight: beyond it sums lose the other blocks
 _PAPER = "Kovnatsky et al. 2011"
 
 
@@ -110,8 +111,8 @@ def with_weights(base: Method, weights: Mapping[str, float]) -> Method:
     for name, weight in weights.items():
         if name not in names:
             raise BadWeights(f"the method {base.name!r} has no block {name!r}, only {', '.join(names)}")
-        if not (math.isfinite(weight) and weight >= 0):
-            raise BadWeights(f"the weight of {name!r} must be a number from 0 upwards, not {weight}")
+        if not (math.isfinite(weight) and 0 <= weight <= MOST):
+            raise BadWeights(f"the weight of {name!r} must be a number from 0 to {MOST:g}, not {weight:g}")
     blocks = tuple(replace(block, weight=weights.get(block.name, block.weight)) for block in base.blocks)
     if not any(block.weight for block in blocks):
         raise BadWeights("at least one weight must be greater than 0")

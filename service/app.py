@@ -61,6 +61,7 @@ def create_app(
         redoc_url=None,
     )
     app.state.key_digests = settings.key_digests
+    app.state.for_this_machine = not settings.api_keys and not settings.insecure
     app.add_middleware(ReplacePlainErrors)
     app.add_middleware(AddSafeHeaders)
     app.add_middleware(CountRequests, metrics=metrics)

@@ -50,9 +50,9 @@ def test_one_content_under_two_names_is_one_shape(tmp_path: Path) -> None:
 
 
 def test_refusals_are_told_and_the_rest_goes_on(tmp_path: Path) -> None:
-    paths = make_meshes(tmp_path / "in", 2)
+    paths = make_meshes(tmp_path / "in", 3)
     paths[0].write_bytes(b"")
-    paths[1].with_name("crash.ply").write_bytes(paths[1].read_bytes() + b"")
+    paths[2].rename(paths[2].with_name("crash.ply"))
     result = run("index", tmp_path / "in", "--data-dir", tmp_path / "lib", "--json")
     outcomes = {Path(line["path"]).name: (line["outcome"], line["code"]) for line in json_lines(result)[:-1]}
     assert outcomes["mesh0.ply"] == ("refused", "empty")

@@ -52,6 +52,17 @@ def test_what_no_database_could_hold_is_not_metadata(text: str) -> None:
         read_metadata(text)
 
 
+@pytest.mark.parametrize(("inner", "outer"), [("{", "}"), ("[", "]")])
+def test_metadata_may_be_nested_but_not_without_end(inner: str, outer: str) -> None:
+    def nested(levels: int) -> str:
+        opened, closed = ('{"a":', "}") if inner == "{" else (inner, outer)
+        return '{"a":' + opened * (levels - 1) + "1" + closed * (levels - 1) + "}"
+
+    assert read_metadata(nested(32))
+    with pytest.raises(BadMetadata, match="deeper"):
+        read_metadata(nested(33))
+
+
 def test_metadata_with_a_backslash_before_zeros_is_kept() -> None:
     value = {"path": "a\\u0000b"}
     assert check_metadata(value) == value

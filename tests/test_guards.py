@@ -1,6 +1,7 @@
 """Closed doors stay closed."""
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from pydantic import SecretStr
@@ -69,3 +70,22 @@ def test_a_page_of_another_site_may_not_change_anything(service: Serving) -> Non
     problem(service.client.delete("/v1/shapes/x", headers=own), 404, "not_found")
     answer = service.client.get("/v1/shapes", headers=header)
     assert "access-control-allow-origin" not in answer.headers
+
+
+@pytest.mark.parametrize(("insecure", "status"), [(False, 403), (True, 200)])
+def test_without_keys_only_this_machines_own_names_are_answered(
+    tmp_path: Path, insecure: bool, status: int
+) -> None:
+    with serving(settings_for(tmp_path, workers=0, insecure=insecure)) as open_service:
+        port = open_service.client.base_url.port
+        for host in ("127.0.0.1", f"localhost:{port}", f"[::1]:{port}"):
+            assert open_service.client.get("/v1/shapes", headers={"host": host}).status_code == 200
+        answer = open_service.client.get("/v1/shapes", headers={"host": "rebound.example"})
+        assert answer.status_code == status
+    if status == 403:
+        problem(answer, 403, "foreign_host")
+
+
+def test_with_keys_any_name_is_answered(service: Serving) -> None:
+    headers = {"authorization": "Bearer first-key", "host": "faience.example"}
+    assert service.client.get("/v1/shapes", headers=headers).status_code == 200

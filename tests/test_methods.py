@@ -54,9 +54,10 @@ def test_own_weights_replace_those_they_name() -> None:
     ("weights", "words"),
     [
         ({"colour-curves": 1.0}, "no block 'colour-curves'"),
-        ({"hks-0": -0.1}, "from 0 upwards"),
-        ({"hks-0": math.nan}, "from 0 upwards"),
-        ({"hks-0": math.inf}, "from 0 upwards"),
+        ({"hks-0": -0.1}, "from 0 to"),
+        ({"hks-0": math.nan}, "from 0 to"),
+        ({"hks-0": math.inf}, "from 0 to"),
+        ({"hks-0": 1e308}, "from 0 to"),
         ({"hks-0": 0.0, "hks-0.05": 0.0, "hks-0.1": 0.0}, "at least one"),
     ],
 )

@@ -8,6 +8,7 @@ import httpx
 import pytest
 
 from tests.fakes import coloured_triangle
+from tests.problems import problem
 from tests.serving import Serving, serving, settings_for
 
 
@@ -56,3 +57,13 @@ def test_a_client_that_was_cut_off_gets_what_it_missed(service: Serving) -> None
     second = service.add({"b.ply": coloured_triangle(2)}).json()["id"]
     with service.client.stream("GET", "/v1/events", headers={"last-event-id": last}) as stream:
         assert next(events(stream))["data"]["id"] == second
+
+
+@pytest.mark.parametrize("last", ["9" * 5000, "-1", "x", "٣"])
+def test_an_event_id_that_is_none_of_ours_starts_from_now(service: Serving, last: str) -> None:
+    with service.client.stream("GET", "/v1/events", headers=[(b"last-event-id", last.encode())]) as stream:
+        assert stream.status_code == 200
+
+
+def test_a_revision_beyond_all_is_refused(service: Serving) -> None:
+    problem(service.client.get("/v1/events", params={"since": "9" * 20}), 422, "invalid_request")

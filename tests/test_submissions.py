@@ -30,12 +30,19 @@ def test_names_contents_and_the_flag_change_the_content_but_name_and_metadata_do
     plain = submission("a.obj", "b.png")
     others = [
         submission("a.obj", "c.png"),
-        submission("b.png", "a.obj"),
+        submission("b.png", "in/a.obj"),
         submission("a.obj"),
         replace(plain, allow_untextured=True),
     ]
     assert len({each.content_hash() for each in [plain, *others]}) == 5
     assert replace(plain, name="x", metadata={"y": 1}).content_hash() == plain.content_hash()
+
+
+def test_a_renamed_mesh_is_the_same_content() -> None:
+    first = Submission(files=(received("a.ply", "same"),))
+    again = Submission(files=(received("Copy of a.PLY", "same"),))
+    assert first.content_hash() == again.content_hash()
+    assert Submission(files=(received("a.obj", "same"),)).content_hash() != first.content_hash()
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ from tests.problems import problem
 from tests.serving import Serving, serving, settings_for, wait_until
 
 HEAD = (
-    "POST /v1/shapes HTTP/1.1\r\nHost: x\r\nContent-Type: multipart/form-data; boundary=b0\r\n"
+    "POST /v1/shapes HTTP/1.1\r\nHost: localhost\r\nContent-Type: multipart/form-data; boundary=b0\r\n"
     "Content-Length: {length}\r\nConnection: close\r\n\r\n"
 )
 PARTS = (

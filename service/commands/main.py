@@ -44,7 +44,8 @@ def faience(
 
 def main() -> None:
     """Run the command line; a wrong option gets one plain line, too."""
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # stop as for Ctrl-C, jobs given back
+    for stop in (signal.SIGINT, signal.SIGTERM):  # a shell's background jobs start with SIGINT ignored
+        signal.signal(stop, signal.default_int_handler)  # stop as for Ctrl-C, jobs given back
     try:
         sys.exit(app(standalone_mode=False))
     except typer.Abort:

@@ -9,7 +9,7 @@ from fastapi import Depends, Query, Request
 from fastapi.security import HTTPAuthorizationCredentials
 
 from index.methods import DEFAULT_METHOD
-from service.http.guards import bearer, check_key, check_origin
+from service.http.guards import bearer, check_host, check_key, check_origin
 from service.http.metrics import Metrics
 from service.http.turnstile import Turnstile
 from service.intake.fields import read_weights
@@ -45,6 +45,7 @@ def guard(
     request: Request, credentials: Annotated[HTTPAuthorizationCredentials | None, Depends(bearer)]
 ) -> None:
     """Let in who holds a key, and no pages of other sites."""
+    check_host(request)
     check_origin(request)
     check_key(credentials, request.app.state.key_digests)
 

@@ -11,7 +11,7 @@ from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse
 
 from index import errors as kept
-from service.http.guards import CrossOrigin, Unauthorised
+from service.http.guards import CrossOrigin, ForeignHost, Unauthorised
 from service.http.problems import plain_problem, problem
 from service.http.turnstile import TooBusy
 from service.intake.fields import BadField
@@ -45,6 +45,7 @@ TABLE: dict[type[Exception], tuple[HTTPStatus, str]] = {
     TooManyFiles: (HTTPStatus.REQUEST_ENTITY_TOO_LARGE, "Too many files or fields"),
     SlowBody: (HTTPStatus.REQUEST_TIMEOUT, "The body came too slowly"),
     Unauthorised: (HTTPStatus.UNAUTHORIZED, "A key is needed"),
+    ForeignHost: (HTTPStatus.FORBIDDEN, "The service is open to this machine alone"),
     CrossOrigin: (HTTPStatus.FORBIDDEN, "Another site's page may not do this"),
     kept.ShapeNotFound: (HTTPStatus.NOT_FOUND, "There is no such shape"),
     kept.FileMissing: (HTTPStatus.NOT_FOUND, "There is no such file"),

@@ -7,6 +7,8 @@ from urllib.parse import urlsplit
 from fastapi import Request
 from fastapi.security import HTTPAuthorizationCredentials, HTTPBearer
 
+from service.settings import is_loopback
+
 SAFE_METHODS = frozenset({"GET", "HEAD", "OPTIONS"})
 
 bearer = HTTPBearer(auto_error=False, description="An API key of FAIENCE_API_KEYS, where keys are set.")
@@ -22,6 +24,29 @@ class CrossOrigin(Exception):  # noqa: N818 - it reads as what the request is
     """A page of another site sent a request that changes something."""
 
     code = "cross_origin"
+
+
+class ForeignHost(Exception):  # noqa: N818 - it reads as what the request is
+    """A request by another name than this machine's own, to a service that is open to this machine alone."""
+
+    code = "foreign_host"
+
+
+def check_host(request: Request) -> None:
+    """Refuse other names where no key protects the library: a page may point its own name at this machine.
+
+    Raises
+    ------
+    ForeignHost
+    """
+    if not request.app.state.for_this_machine:
+        return
+    host = request.headers.get("host", "")
+    if not is_loopback(urlsplit(f"//{host}").hostname or ""):
+        raise ForeignHost(
+            f"without keys the service answers to 127.0.0.1 and localhost only, not to {host[:100]!r}; "
+            "set FAIENCE_API_KEYS, or start it with --insecure"
+        )
 
 
 def check_key(credentials: HTTPAuthorizationCredentials | None, digests: tuple[bytes, ...]) -> None:

@@ -8,6 +8,7 @@ from typing import Any, NoReturn
 TRUE, FALSE = frozenset({"true", "1", "yes", "on"}), frozenset({"false", "0", "no", "off", ""})
 NUL = re.compile(r"(?<!\\)(?:\\\\)*\\u0000")  # as JSON writes it, not a backslash before "u0000"
 NAME_LENGTH = 500  # characters
+DEPTH = 32  # of objects and lists inside metadata; some clients and our own answers bear little more
 
 
 class BadField(ValueError):  # noqa: N818 - it reads as what was sent
@@ -60,7 +61,18 @@ def check_metadata(value: object) -> dict[str, Any]:
         raise BadMetadata(f"metadata cannot be stored: {error}") from error
     if NUL.search(text):
         raise BadMetadata("metadata holds a NUL character")
+    if _depth(value) > DEPTH:
+        raise BadMetadata(f"metadata is nested deeper than {DEPTH} levels")
     return value
+
+
+def _depth(value: object) -> int:
+    """Count the levels of objects and lists inside one another."""
+    depth, level = 0, [value]
+    while level := [each for each in level if isinstance(each, dict | list)]:
+        depth += 1
+        level = [inner for each in level for inner in (each.values() if isinstance(each, dict) else each)]
+    return depth
 
 
 def read_weights(text: str | None) -> dict[str, float] | None:

@@ -43,8 +43,11 @@ class Submission:
         return Upload(files=FilesOnDisk(self.paths), allow_untextured=self.allow_untextured)
 
     def content_hash(self) -> str:
-        """Return the SHA-256 that tells whether the same content is known, whatever the order of files."""
-        files = sorted((file.name, file.sha256) for file in self.files)
+        """Return the SHA-256 that tells whether the same content is known.
+
+        Neither the order of the files counts nor what the mesh itself is called; others are named by it.
+        """
+        files = sorted((_place(file.name), file.sha256) for file in self.files)
         text = json.dumps([files, self.allow_untextured], ensure_ascii=False, separators=(",", ":"))
         return hashlib.sha256(text.encode()).hexdigest()
 
@@ -55,6 +58,12 @@ class Submission:
         paths = [PurePosixPath(file.name) for file in self.files]
         meshes = [path for path in paths if path.suffix.lower() in MESHES]
         return (meshes or paths)[0].stem
+
+
+def _place(name: str) -> str:
+    """Return a file's name, or for a mesh the folder and the kind alone."""
+    path = PurePosixPath(name)
+    return str(path.with_name(path.suffix.lower())) if path.suffix.lower() in MESHES else name
 
 
 def receive_paths(paths: Mapping[str, Path], **details: Any) -> Submission:

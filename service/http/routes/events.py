@@ -1,6 +1,7 @@
 """Server-sent events: shapes that change, in the order of the catalogue's revisions."""
 
 import json
+import re
 from collections.abc import AsyncIterator
 from typing import Annotated, Any
 
@@ -17,6 +18,7 @@ from service.library import Library
 router = APIRouter(tags=["events"])
 
 LOOK_EVERY = 0.5  # seconds
+MOST = 10**18  # of a revision; a database holds little more
 PING_EVERY = 15  # seconds, so that proxies keep the connection
 
 STREAM: dict[int | str, dict[str, Any]] = {
@@ -34,10 +36,14 @@ STREAM: dict[int | str, dict[str, Any]] = {
 async def watch(
     library: LibraryPart,
     last_event_id: Annotated[str | None, Header(description="sent by browsers that reconnect")] = None,
-    since: Annotated[int | None, Query(ge=0, description="a revision to start after; default: now")] = None,
+    since: Annotated[
+        int | None, Query(ge=0, lt=MOST, description="a revision to start after; default: now")
+    ] = None,
 ) -> EventSourceResponse:
     """Send `shape` (the shape) and `removed` (its id) events; the last of a batch has the revision as id."""
-    start = int(last_event_id) if last_event_id and last_event_id.isdecimal() else since
+    start = since
+    if last_event_id is not None and re.fullmatch(r"[0-9]{1,18}", last_event_id):
+        start = int(last_event_id)
     if start is None:
         start = await to_thread.run_sync(library.catalogue.revision)
     return EventSourceResponse(_events(library, start), ping=PING_EVERY)
