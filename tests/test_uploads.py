@@ -1,6 +1,7 @@
 """A body arrives whole and in time, or leaves nothing behind."""
 
 import re
+import os
 import socket
 import threading
 from collections.abc import Iterator
@@ -50,9 +51,8 @@ def send(service: Serving, body: bytes, length: int | None = None) -> str:
 def left(service: Serving) -> list[Path]:
     root = service.library.settings.data_dir
     folders = (root / "files", service.library.incoming.folder)
-    return [
-        path for folder in folders for path in folder.rglob("*") if path.is_file() and path.name != ".lock"
-    ]
+    found = [(parent, name) for folder in folders for parent, _, names in os.walk(folder) for name in names]
+    return [Path(parent, name) for parent, name in found if name != ".lock"]  # walk bears folders that go
 
 
 def test_the_whole_body_is_accepted(service: Serving) -> None:
