@@ -1,7 +1,7 @@
 """A body arrives whole and in time, or leaves nothing behind."""
 
-import re
 import os
+import re
 import socket
 import threading
 from collections.abc import Iterator
