@@ -1,7 +1,5 @@
 """What can go wrong with what is kept: one root, one class and one stable code for each reason."""
 
-# ruff: noqa: N818 - a name that says what happened needs no suffix
-
 from typing import ClassVar
 
 

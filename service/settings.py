@@ -9,7 +9,7 @@ from pydantic import Field, SecretStr, field_validator
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 
-class UnsafeListening(Exception):  # noqa: N818 - it reads as what is refused
+class UnsafeListening(Exception):
     """The service would be open to other machines without a key."""
 
 

@@ -15,7 +15,7 @@ BATCH = 100  # shapes between two questions to the catalogue
 Progress = Callable[[int, int], None]  # shapes done, shapes known so far
 
 
-class NoVocabulary(Exception):  # noqa: N818 - it reads as what is missing
+class NoVocabulary(Exception):
     """No vocabulary of these parameters is active; one must be learnt first."""
 
     code = "no_vocabulary"

@@ -8,7 +8,7 @@ import typer
 STOPPED = 130  # exit code after Ctrl-C, as shells expect it
 
 
-class CommandFailed(Exception):  # noqa: N818 - it reads as what happened
+class CommandFailed(Exception):
     """A command cannot go on; the message is for the user."""
 
     def __init__(self, message: str, exit_code: int = 1) -> None:

@@ -14,19 +14,19 @@ SAFE_METHODS = frozenset({"GET", "HEAD", "OPTIONS"})
 bearer = HTTPBearer(auto_error=False, description="An API key of FAIENCE_API_KEYS, where keys are set.")
 
 
-class Unauthorised(Exception):  # noqa: N818 - it reads as the state of the caller
+class Unauthorised(Exception):
     """No key, or one that is not known."""
 
     code = "unauthorised"
 
 
-class CrossOrigin(Exception):  # noqa: N818 - it reads as what the request is
+class CrossOrigin(Exception):
     """A page of another site sent a request that changes something."""
 
     code = "cross_origin"
 
 
-class ForeignHost(Exception):  # noqa: N818 - it reads as what the request is
+class ForeignHost(Exception):
     """A request by another name than this machine's own, to a service that is open to this machine alone."""
 
     code = "foreign_host"

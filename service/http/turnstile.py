@@ -5,7 +5,7 @@ import threading
 from collections.abc import Iterator
 
 
-class TooBusy(Exception):  # noqa: N818 - it reads as the state
+class TooBusy(Exception):
     """As many searches wait as may; come back in a moment."""
 
     code = "too_busy"

@@ -11,7 +11,7 @@ NAME_LENGTH = 500  # characters
 DEPTH = 32  # of objects and lists inside metadata; some clients and our own answers bear little more
 
 
-class BadField(ValueError):  # noqa: N818 - it reads as what was sent
+class BadField(ValueError):
     """A field does not hold what it should."""
 
     code = "bad_field"

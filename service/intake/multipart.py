@@ -15,7 +15,7 @@ from service.intake.submissions import ReceivedFile, safe_name
 Value = TypeVar("Value")
 
 
-class UploadRefused(Exception):  # noqa: N818 - the root of what is wrong with an upload as a message
+class UploadRefused(Exception):
     """An upload is refused for its form, before its mesh is looked at."""
 
     code = "bad_upload"

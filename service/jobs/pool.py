@@ -22,7 +22,7 @@ from worker.errors import Code, MeshError
 Value = TypeVar("Value")
 
 
-class ChildDied(Exception):  # noqa: N818 - it reads as what happened
+class ChildDied(Exception):
     """The process ended without an answer: it crashed, or somebody killed it."""
 
     def __init__(self, exit_code: int | None) -> None:
@@ -30,7 +30,7 @@ class ChildDied(Exception):  # noqa: N818 - it reads as what happened
         self.exit_code = exit_code
 
 
-class PoolStopped(Exception):  # noqa: N818 - it reads as what happened
+class PoolStopped(Exception):
     """The pool was shut down before the job ended; the job itself is not to blame."""
 
 
@@ -88,7 +88,7 @@ class ProcessPerJob(Executor):
                 self._end(child)
         if isinstance(outcome, Exception):
             raise outcome
-        return outcome  # type: ignore[no-any-return]
+        return outcome  # type: ignore[no-any-return]  # the child's word for it
 
     def _start(
         self, sender: Connection, function: Callable[..., Any], args: tuple[Any, ...]
