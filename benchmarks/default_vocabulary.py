@@ -22,7 +22,7 @@ SEED = 2011
 def main() -> None:
     """Learn and write."""
     arguments = argparse.ArgumentParser(description=__doc__)
-    arguments.add_argument("--shapes", type=int, default=300)
+    arguments.add_argument("--shapes", type=int, default=160)
     arguments.add_argument("--workers", type=int, default=2)
     options = arguments.parse_args()
     vocabulary = learn(options.shapes, options.workers)

@@ -35,7 +35,7 @@ MAIN = "from service.commands.main import main; main()"
 def start(*arguments: str | Path | int, script: str = MAIN) -> subprocess.Popen[str]:
     """Start a command in a process of its own; its output and errors are pipes."""
     environment = {**os.environ, "PYTHONPATH": str(HERE.parent)}
-    return subprocess.Popen(  # noqa: S603 - our own command
+    return subprocess.Popen(
         [sys.executable, "-c", script, *map(str, arguments)],
         env=environment,
         stdout=subprocess.PIPE,

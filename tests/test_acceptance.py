@@ -93,7 +93,7 @@ def test_one_of_many_identical_uploads_at_once_is_accepted(tmp_path: Path) -> No
 
 
 def test_a_refused_acceptance_leaves_no_part_of_itself(opened: Opened) -> None:
-    twice = StoredFile(name="a", key="k", size=-1, sha256=None)  # type: ignore[arg-type]
+    twice = StoredFile(name="a", key="k", size=-1, sha256=None)  # type: ignore[arg-type] # what the database must refuse
     with pytest.raises(Exception, match="NOT NULL"):
         accept(opened, "a", "sum", [*stored("a.ply"), twice])
     assert [count(opened, table) for table in (ShapeRow, JobRow, FileRow)] == [0, 0, 0]

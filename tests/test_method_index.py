@@ -55,7 +55,7 @@ def test_a_vocabulary_that_changes_meanwhile_leaves_no_half_index(
         if opened.catalogue.state().vocabulary_id != NEW.id:
             assert opened.catalogue.activate(NEW.id)  # between reading the state and reading the rows
         shown.append(answer(found))
-        yield from block_rows(*told)  # type: ignore[arg-type]
+        yield from block_rows(*told)  # type: ignore[arg-type] # handed on as it came
 
     monkeypatch.setattr(opened.catalogue, "block_rows", overtaken)
     found.catch_up()
@@ -75,7 +75,7 @@ def test_an_unchanged_index_is_written_once(
 
     def watched(self: FileStore, key: str, fill: object) -> int:
         written.append(key)
-        return write(self, key, fill)  # type: ignore[arg-type]
+        return write(self, key, fill)  # type: ignore[arg-type] # handed on as it came
 
     monkeypatch.setattr(FileStore, "write", watched)
     found.save()

@@ -1,6 +1,7 @@
 """PLY files, from bytes to colours."""
 
 import struct
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -13,12 +14,13 @@ from worker.reading.limits import Limits
 from worker.reading.mesh import Colour
 from worker.reading.ply import read_ply
 
+Write = Callable[..., bytes]  # a mesh as the bytes of a PLY
 POINTS = np.array([[0.0, 0, 0], [4, 0, 0], [4, 4, 0], [2, 1, 0], [0, 4, 0]])
 COLOURS = "property {0} red\nproperty {0} green\nproperty {0} blue\n"
 
 
 @pytest.mark.parametrize("write", [ply_ascii, ply_binary, lambda v, f: ply_binary(v, f, ">")])
-def test_every_form_of_a_concave_polygon_has_the_same_area(write) -> None:  # type: ignore[no-untyped-def]
+def test_every_form_of_a_concave_polygon_has_the_same_area(write: Write) -> None:
     mesh = read({"m.ply": write(POINTS, [[0, 1, 2, 3, 4], [0, 1, 2]])})
     assert area(mesh.vertices, mesh.faces) == pytest.approx(10 + 8)
     assert mesh.colour == Colour.NONE
@@ -135,7 +137,9 @@ def test_faces_of_two_corners_are_dropped_and_counted() -> None:
 
 
 @given(st.integers(0, 400), st.integers(0, 255), st.sampled_from([ply_ascii, ply_binary]))
-def test_a_damaged_byte_gives_a_mesh_with_valid_indices_or_a_refusal(place: int, byte: int, write) -> None:  # type: ignore[no-untyped-def]
+def test_a_damaged_byte_gives_a_mesh_with_valid_indices_or_a_refusal(
+    place: int, byte: int, write: Write
+) -> None:
     data = bytearray(write(POINTS, [[0, 1, 2, 3], [0, 3, 4]] * 4))
     data[place % len(data)] = byte
     if attempt(lambda: read_ply(bytes(data), "m.ply", Limits())) is None:

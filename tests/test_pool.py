@@ -135,7 +135,7 @@ def test_children_compute_with_one_thread_whatever_the_service_does() -> None:
         "print(pool.submit(children.threads_of_numpy).result())\n"
     )
     plain = {name: value for name, value in ENVIRONMENT.items() if "NUM_THREADS" not in name}
-    done = subprocess.run(  # noqa: S603
+    done = subprocess.run(
         [sys.executable, "-c", script], env=plain, check=True, capture_output=True, text=True
     )
     assert done.stdout.strip() == "{1}"
@@ -150,7 +150,7 @@ def test_a_child_ends_when_its_service_is_killed(tmp_path: Path) -> None:
         "pool = ProcessPerJob(slots=1, limits=test_pool.LIMITS)\n"
         f"pool.submit(children.write_identity_and_hang, pathlib.Path({str(mark)!r})).result()\n"
     )
-    service = subprocess.Popen([sys.executable, "-c", script], env=ENVIRONMENT)  # noqa: S603
+    service = subprocess.Popen([sys.executable, "-c", script], env=ENVIRONMENT)
     while not mark.exists() and service.poll() is None:
         time.sleep(0.01)
     service.kill()
@@ -169,5 +169,5 @@ def test_a_command_is_not_imported_again_by_every_child(tmp_path: Path) -> None:
         "    pool = ProcessPerJob(slots=1, limits=test_pool.LIMITS)\n"
         "    for _ in range(2): pool.submit(children.identify).result()\n"
     )
-    subprocess.run([sys.executable, script, log], check=True, env=ENVIRONMENT)  # noqa: S603
+    subprocess.run([sys.executable, script, log], check=True, env=ENVIRONMENT)
     assert log.read_text().split() == ["imported"]

@@ -39,7 +39,7 @@ def running(folder: Path) -> Iterator[tuple[subprocess.Popen[str], httpx.Client]
         "FAIENCE_DATA_DIR": str(folder),
         "FAIENCE_LEASE_SECONDS": "2",
     }
-    service = subprocess.Popen(  # noqa: S603
+    service = subprocess.Popen(
         [sys.executable, "-c", SCRIPT], env=environment, stdout=subprocess.PIPE, text=True
     )
     try:
