@@ -1,4 +1,4 @@
-"""What a test of the evaluation asked, and how far every answer lay: the seam between measuring and reporting."""
+"""What a test of the evaluation asked, and how far each answer lay: the seam of measuring and reporting."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
