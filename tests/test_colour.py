@@ -3,7 +3,7 @@ import pytest
 
 from tests.photograph import photograph
 from tests.shapes import SQUARE, coloured, sheet
-from worker.geometry.colour import average_over_cells, look_up_colours, srgb_to_lab
+from worker.geometry.colour import look_up_colours, srgb_to_lab
 from worker.reading.mesh import Colour, Mesh
 
 
@@ -74,21 +74,3 @@ def test_footprints_average_noise_away() -> None:
     raw = look_up_colours(square_with(noise), faces, places)
     smooth = look_up_colours(square_with(noise), faces, places, np.full(500, 0.01))  # 328 texels each
     assert smooth.std() < raw.std() / 8
-
-
-def test_the_two_sides_of_a_thin_wall_keep_their_colours() -> None:
-    vertices, _ = sheet(10)
-    up, down = np.tile([0.0, 0, 1], (121, 1)), np.tile([0.0, 0, -1], (121, 1))
-    points = np.vstack([vertices + [0.02, 0.02, 0], vertices + [0.02, 0.02, -0.001]])
-    values = np.vstack([np.ones((121, 1)), np.zeros((121, 1))])
-    centres = np.vstack([vertices, vertices - [0, 0, 0.001]])
-    sides = np.vstack([up, down])
-    means = average_over_cells(points, sides, values, centres, sides, turn=0.1)
-    np.testing.assert_array_equal(means, values)
-
-
-def test_a_cell_without_samples_takes_the_nearest_colour() -> None:
-    centres = np.array([[0.0, 0, 0], [1, 0, 0], [5, 0, 0]])
-    normals = np.tile([0.0, 0, 1], (3, 1))
-    means = average_over_cells(centres[:2], normals[:2], np.array([[1.0], [2.0]]), centres, normals, turn=1.0)
-    np.testing.assert_array_equal(means, [[1.0], [2.0], [2.0]])

@@ -6,11 +6,24 @@ import numpy as np
 
 from worker.arrays import FloatArray, IntArray
 from worker.geometry.areas import face_vectors, unit, vertex_normals
-from worker.geometry.colour import average_over_cells, look_up_colours, srgb_to_lab
+from worker.geometry.cells import Cells, cell_means, cells_of
+from worker.geometry.colour import look_up_colours, srgb_to_lab
 from worker.geometry.repair import Repaired
 from worker.geometry.resampling import edge_of, normalise_area, resample, sample_surface
 from worker.parameters import Parameters
 from worker.reading.mesh import Mesh
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Canvas:
+    """A canonical surface before its colours; meshes that differ in colour alone share it."""
+
+    vertices: FloatArray  # (n, 3)
+    faces: IntArray  # (m, 3)
+    sample_faces: IntArray  # (k,), the face of the mesh as read that each colour sample lies in
+    sample_places: FloatArray  # (k, 3), barycentric coordinates there
+    footprints: FloatArray  # (k,), the share of its face that each sample stands for
+    cells: Cells  # of the samples, among the vertices
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -39,26 +52,47 @@ def canonical_surface(mesh: Mesh, repaired: Repaired, parameters: Parameters) ->
     -------
     Surface
     """
+    return paint(mesh, stretch_canvas(repaired, parameters))
+
+
+def stretch_canvas(repaired: Repaired, parameters: Parameters) -> Canvas:
+    """Resample a repaired mesh, and choose where its colours are looked up."""
     area, n_vertices = parameters.surface_area, parameters.vertices
     vertices, faces = resample(repaired.vertices, repaired.faces, area, n_vertices)
     source = normalise_area(repaired.vertices, repaired.faces, area)
     indices, barycentrics = sample_surface(source, repaired.faces, parameters.colour_samples)
     vectors = face_vectors(source, repaired.faces)
     footprints = area / parameters.colour_samples / np.linalg.norm(vectors, axis=1)[indices]
-    faces_read, places_read = _in_source(repaired, indices, barycentrics)
-    srgb = look_up_colours(mesh, faces_read, places_read, np.minimum(footprints, 1.0))
-    lab = srgb_to_lab(srgb)
-    points = np.einsum("kc,kcd->kd", barycentrics, source[repaired.faces[indices]])
-    means = average_over_cells(
-        points,
-        unit(vectors)[indices],
-        np.hstack([srgb, lab]),
-        vertices,
-        vertex_normals(vertices, faces),
-        edge_of(area, n_vertices),
+    sample_faces, sample_places = _in_source(repaired, indices, barycentrics)
+    return Canvas(
+        vertices=vertices,
+        faces=faces,
+        sample_faces=sample_faces,
+        sample_places=sample_places,
+        footprints=np.minimum(footprints, 1.0),
+        cells=cells_of(
+            np.einsum("kc,kcd->kd", barycentrics, source[repaired.faces[indices]]),
+            unit(vectors)[indices],
+            vertices,
+            vertex_normals(vertices, faces),
+            edge_of(area, n_vertices),
+        ),
     )
-    texels = srgb_to_lab(look_up_colours(mesh, faces_read, places_read)) if mesh.textures else lab
-    return Surface(vertices=vertices, faces=faces, srgb=means[:, :3], lab=means[:, 3:], sample_lab=texels)
+
+
+def paint(mesh: Mesh, canvas: Canvas) -> Surface:
+    """Look up the colours of a mesh on the canvas that was made from its triangles."""
+    faces, places = canvas.sample_faces, canvas.sample_places
+    srgb = look_up_colours(mesh, faces, places, canvas.footprints)
+    lab = srgb_to_lab(srgb)
+    means = cell_means(np.hstack([srgb, lab]), canvas.cells)
+    return Surface(
+        vertices=canvas.vertices,
+        faces=canvas.faces,
+        srgb=means[:, :3],
+        lab=means[:, 3:],
+        sample_lab=srgb_to_lab(look_up_colours(mesh, faces, places)) if mesh.textures else lab,
+    )
 
 
 def _in_source(

@@ -1,10 +1,9 @@
-"""The colour of a surface: looked up in its source, averaged over cells, in CIE Lab."""
+"""The colour of a surface: looked up in its source, in CIE Lab."""
 
 import warnings
 
 import numpy as np
 from PIL import Image
-from scipy.spatial import cKDTree
 
 from worker.arrays import ByteArray, FloatArray, IntArray
 from worker.reading.mesh import Mesh
@@ -68,48 +67,6 @@ def look_up_colours(
             levels = _levels(mesh.corner_uvs[face_indices[inside]], footprints[inside], texture)
             colours[inside] = _filtered(texture, uvs[inside], levels) / 255.0
     return colours
-
-
-def average_over_cells(
-    points: FloatArray,
-    normals: FloatArray,
-    values: FloatArray,
-    centres: FloatArray,
-    centre_normals: FloatArray,
-    turn: float,
-) -> FloatArray:
-    """Average equal-area samples of a surface over the cells of vertices.
-
-    A sample belongs to the nearest vertex; distance counts the turn of the normal as well, so that the two
-    sides of a thin wall keep their own colours.
-
-    Parameters
-    ----------
-    points, normals : (k, 3) arrays
-        The samples; unit normals.
-    values : (k, d) array
-        What is averaged.
-    centres, centre_normals : (n, 3) arrays
-        The vertices; unit normals.
-    turn : float
-        The distance that a quarter turn of the normal counts for, about an edge.
-
-    Returns
-    -------
-    (n, d) array
-        Means; a cell without samples takes the value of the nearest sample.
-    """
-    weight = turn / np.sqrt(2.0)  # unit normals a quarter turn apart are √2 apart
-    samples = np.hstack([points, weight * normals])  # (k, 6)
-    cells = np.hstack([centres, weight * centre_normals])  # (n, 6)
-    nearest = cKDTree(cells).query(samples)[1]  # (k,)
-    counts = np.bincount(nearest, minlength=len(centres))  # (n,)
-    sums = np.stack([np.bincount(nearest, column, len(centres)) for column in values.T], axis=1)  # (n, d)
-    means = sums / np.maximum(counts, 1)[:, None]
-    empty = np.flatnonzero(counts == 0)
-    if len(empty):
-        means[empty] = values[cKDTree(samples).query(cells[empty])[1]]
-    return means
 
 
 def _levels(corner_uvs: FloatArray, footprints: FloatArray, texture: ByteArray) -> FloatArray:
