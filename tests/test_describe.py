@@ -13,12 +13,13 @@ from scipy.spatial.transform import Rotation
 from tests.shapes import coloured, sphere
 from worker.arrays import FloatArray, IntArray
 from worker.canonical import Surface, canonical_surface
-from worker.describe import describe, describe_surface, solve_joint
+from worker.describe import describe, describe_surface
 from worker.descriptors.signatures import heat_kernel_signatures
 from worker.errors import Code, MeshError
 from worker.geometry.repair import repair
 from worker.parameters import Operator, Parameters
 from worker.reading.upload import Upload, read_mesh
+from worker.solving import solve_joint
 
 PARAMETERS = Parameters()
 SMALL = replace(PARAMETERS, vertices=1_200, distance_samples=300, colour_samples=8_000)
@@ -108,8 +109,8 @@ def test_on_a_real_mesh_the_kept_pairs_give_the_hks_of_200(
     surface = canonical_surface(mesh, repair(mesh), PARAMETERS)
     times = np.array(PARAMETERS.times)
     few, many = (
-        solve_joint(surface, weight, replace(PARAMETERS, operator=operator, **more))
-        for more in NARROW_AND_WIDE
+        solve_joint(surface.vertices, surface.faces, surface.lab, weight, parameters)
+        for parameters in (replace(PARAMETERS, operator=operator, **more) for more in NARROW_AND_WIDE)
     )
     assert len(few.eigenvalues) < 80
     assert len(many.eigenvalues) >= 200

@@ -8,20 +8,17 @@ import numpy as np
 from worker.arrays import FloatArray, SingleArray
 from worker.canonical import Surface, canonical_surface
 from worker.descriptors.curves import colour_curves, whiten_curves
-from worker.descriptors.diffusion import distance_quantiles, joint_distances
 from worker.descriptors.histograms import lab_histogram
-from worker.descriptors.signatures import heat_kernel_signatures, log_differences
-from worker.geometry.areas import edge_lengths, face_vectors, triangle_areas, vertex_areas
-from worker.geometry.laplacian import cotangent_laplacian, joint_embedding, mesh_laplacian
+from worker.geometry.areas import face_vectors
 from worker.geometry.repair import Repaired, repair
-from worker.geometry.sampling import cell_areas, farthest_points
-from worker.geometry.spectrum import Eigenpairs, solve_eigenpairs
-from worker.parameters import Operator, Parameters
+from worker.intrinsic import Intrinsic, describe_triangles, distribution, signatures_at
+from worker.parameters import Parameters
 from worker.pictures.preview import preview
 from worker.pictures.thumbnail import thumbnail
 from worker.reading.limits import Limits
 from worker.reading.mesh import Mesh
 from worker.reading.upload import Upload, read_mesh
+from worker.solving import solve_joint
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -86,9 +83,16 @@ def describe(
 
 
 def describe_surface(
-    surface: Surface, parameters: Parameters
+    surface: Surface, parameters: Parameters, intrinsic: Intrinsic | None = None
 ) -> tuple[dict[str, FloatArray], dict[str, FloatArray]]:
     """Compute the blocks and signatures of a canonical surface.
+
+    Parameters
+    ----------
+    surface : Surface
+    parameters : Parameters
+    intrinsic : Intrinsic, optional
+        As from `describe_triangles` for the same triangles, where several colourings share them.
 
     Returns
     -------
@@ -98,66 +102,27 @@ def describe_surface(
         ``areas`` (n,), ``hks-η`` (n, 6) and ``eigenvalues-η`` (k,) for each η, ``log-hks`` (n, 6),
         ``diffusion-geometric`` and ``diffusion-joint`` (quantiles), ``raw-curves`` (t, b, 3).
     """
-    areas = _areas(surface)
-    weights = sorted({*parameters.colour_weights, *parameters.distance_weights, 0.0})
-    spectra = {weight: solve_joint(surface, weight, parameters) for weight in weights}
-    geometric = spectra[0.0]
-    orders = _signatures_at(geometric, parameters.curve_times)
-    curves = colour_curves(orders, surface.lab, areas, parameters.curve_bins)
+    shared = intrinsic or describe_triangles(surface.vertices, surface.faces, parameters)
+    curves = colour_curves(shared.orders, surface.lab, shared.areas, parameters.curve_bins)
     blocks = {
         "colour-histogram": lab_histogram(
             surface.sample_lab, parameters.histogram_bins, parameters.histogram_smoothing
         ),
         "colour-curves": whiten_curves(curves),
     }
-    signatures = {"areas": areas, "raw-curves": curves}
-    signatures["log-hks"] = log_differences(_signatures_at(geometric, parameters.fine_times))
-    for weight in parameters.colour_weights:
-        signatures[f"hks-{weight:g}"] = _signatures_at(spectra[weight], parameters.times)
-    for weight, spectrum in spectra.items():
+    spectra = {
+        weight: solve_joint(surface.vertices, surface.faces, surface.lab, weight, parameters)
+        for weight in {*parameters.colour_weights, *parameters.distance_weights} - {0.0}
+    } | {0.0: shared.spectrum}
+    signatures = {**shared.signatures, "raw-curves": curves}
+    for weight, spectrum in sorted(spectra.items()):
         signatures[f"eigenvalues-{weight:g}"] = spectrum.eigenvalues
-    return blocks, signatures | _distance_distributions(surface, areas, spectra, parameters)
-
-
-def solve_joint(surface: Surface, weight: float, parameters: Parameters) -> Eigenpairs:
-    """Solve the operator of geometry and colour joined with weight η."""
-    points = joint_embedding(surface.vertices, surface.lab, weight)
-    cutoff = parameters.cutoff if weight else parameters.fine_cutoff
-    if parameters.operator is Operator.COTANGENT:
-        stiffness, mass = cotangent_laplacian(points, surface.faces)
-    else:
-        mass = vertex_areas(
-            surface.faces, triangle_areas(edge_lengths(points, surface.faces)), len(surface.vertices)
-        )
-        stiffness, mass = mesh_laplacian(points, mass, parameters.kernel_width, parameters.kernel_tail)
-    return solve_eigenpairs(stiffness, mass, cutoff, parameters.eigenpairs)
-
-
-def _distance_distributions(
-    surface: Surface, areas: FloatArray, spectra: Mapping[float, Eigenpairs], parameters: Parameters
-) -> dict[str, FloatArray]:
-    samples = farthest_points(surface.vertices, parameters.distance_samples)
-    cells = cell_areas(surface.vertices, samples, areas)
-    sampled = [
-        (spectra[weight].eigenvalues, spectra[weight].eigenfunctions[samples])
-        for weight in (0.0, *parameters.distance_weights)
-    ]
-    systems = {"diffusion-geometric": sampled[:1], "diffusion-joint": sampled[1:]}
-    return {
-        name: distance_quantiles(
-            joint_distances(system, parameters.distance_times), cells, parameters.distance_quantiles
-        )
-        for name, system in systems.items()
-    }
-
-
-def _signatures_at(spectrum: Eigenpairs, times: tuple[float, ...]) -> FloatArray:
-    return heat_kernel_signatures(spectrum.eigenvalues, spectrum.eigenfunctions, np.array(times))
-
-
-def _areas(surface: Surface) -> FloatArray:
-    lengths = edge_lengths(surface.vertices, surface.faces)
-    return vertex_areas(surface.faces, triangle_areas(lengths), len(surface.vertices))
+        if weight in parameters.colour_weights:
+            signatures[f"hks-{weight:g}"] = signatures_at(spectrum, parameters.times)
+    signatures["diffusion-joint"] = distribution(
+        [spectra[weight] for weight in parameters.distance_weights], shared.samples, shared.shares, parameters
+    )
+    return blocks, signatures
 
 
 def _facts(mesh: Mesh, repaired: Repaired) -> MeshFacts:

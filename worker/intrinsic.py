@@ -1,0 +1,71 @@
+"""What the triangles of a surface decide, whatever its colours."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from worker.arrays import FloatArray, IntArray
+from worker.descriptors.diffusion import distance_quantiles, joint_distances
+from worker.descriptors.signatures import heat_kernel_signatures, log_differences
+from worker.geometry.sampling import cell_areas, farthest_points
+from worker.geometry.spectrum import Eigenpairs
+from worker.parameters import Parameters
+from worker.solving import areas_of, solve_joint
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Intrinsic:
+    """Spectrum, points and signatures at η = 0."""
+
+    areas: FloatArray  # (n,), of the vertices
+    spectrum: Eigenpairs  # at η = 0
+    orders: FloatArray  # (n, t), heat kernel signatures by which colour curves are ordered
+    samples: IntArray  # (s,), vertices between which distances are taken
+    shares: FloatArray  # (s,), area that each of them stands for
+    signatures: Mapping[str, FloatArray]  # those that colours do not change
+
+
+def describe_triangles(vertices: FloatArray, faces: IntArray, parameters: Parameters) -> Intrinsic:
+    """Compute what all colourings of the same canonical triangles share.
+
+    Parameters
+    ----------
+    vertices : (n, 3) array
+    faces : (m, 3) array
+    parameters : Parameters
+
+    Returns
+    -------
+    Intrinsic
+    """
+    areas = areas_of(vertices, faces)
+    spectrum = solve_joint(vertices, faces, np.zeros_like(vertices), 0.0, parameters)
+    samples = farthest_points(vertices, parameters.distance_samples)
+    shares = cell_areas(vertices, samples, areas)
+    return Intrinsic(
+        areas=areas,
+        spectrum=spectrum,
+        orders=signatures_at(spectrum, parameters.curve_times),
+        samples=samples,
+        shares=shares,
+        signatures={
+            "areas": areas,
+            "log-hks": log_differences(signatures_at(spectrum, parameters.fine_times)),
+            "diffusion-geometric": distribution([spectrum], samples, shares, parameters),
+        },
+    )
+
+
+def signatures_at(spectrum: Eigenpairs, times: tuple[float, ...]) -> FloatArray:
+    """Return heat kernel signatures (n, t) at some times."""
+    return heat_kernel_signatures(spectrum.eigenvalues, spectrum.eigenfunctions, np.array(times))
+
+
+def distribution(
+    spectra: Sequence[Eigenpairs], samples: IntArray, shares: FloatArray, parameters: Parameters
+) -> FloatArray:
+    """Return the quantiles of the diffusion distances, joint over the spectra, between sampled vertices."""
+    sampled = [(spectrum.eigenvalues, spectrum.eigenfunctions[samples]) for spectrum in spectra]
+    distances = joint_distances(sampled, parameters.distance_times)
+    return distance_quantiles(distances, shares, parameters.distance_quantiles)

@@ -1,0 +1,41 @@
+"""Spectra of surfaces: the operator that the parameters name, and its eigenpairs."""
+
+from worker.arrays import FloatArray, IntArray
+from worker.geometry.areas import edge_lengths, triangle_areas, vertex_areas
+from worker.geometry.laplacian import cotangent_laplacian, joint_embedding, mesh_laplacian
+from worker.geometry.spectrum import Eigenpairs, solve_eigenpairs
+from worker.parameters import Operator, Parameters
+
+
+def solve_joint(
+    vertices: FloatArray, faces: IntArray, lab: FloatArray, weight: float, parameters: Parameters
+) -> Eigenpairs:
+    """Solve the operator of geometry and colour joined with weight η.
+
+    Parameters
+    ----------
+    vertices, lab : (n, 3) arrays
+        Units of the canonical area; CIE Lab, which does not matter at η = 0.
+    faces : (m, 3) array
+    weight : float
+        η.
+    parameters : Parameters
+
+    Returns
+    -------
+    Eigenpairs
+        All below the cutoff: the finer one for η = 0.
+    """
+    points = joint_embedding(vertices, lab, weight)
+    cutoff = parameters.cutoff if weight else parameters.fine_cutoff
+    if parameters.operator is Operator.COTANGENT:
+        stiffness, mass = cotangent_laplacian(points, faces)
+    else:
+        mass = areas_of(points, faces)
+        stiffness, mass = mesh_laplacian(points, mass, parameters.kernel_width, parameters.kernel_tail)
+    return solve_eigenpairs(stiffness, mass, cutoff, parameters.eigenpairs)
+
+
+def areas_of(points: FloatArray, faces: IntArray) -> FloatArray:
+    """Return the area that belongs to each vertex, (n,)."""
+    return vertex_areas(faces, triangle_areas(edge_lengths(points, faces)), len(points))
