@@ -4,6 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from worker.descriptors.diffusion import (
+    ROWS,
     diffusion_distances,
     distance_quantiles,
     distribution_on_grid,
@@ -65,6 +66,25 @@ def test_a_distribution_is_read_back_on_any_grid(n_levels: int) -> None:
     grid = np.linspace(0.05, 1.5, 30)
     expected = np.minimum(grid, 1.0) ** 2
     np.testing.assert_allclose(distribution_on_grid(quantiles, grid) * 30, expected, atol=1 / n_levels)
+
+
+def test_blocks_join_without_a_seam() -> None:
+    values, functions = spectrum(5, 2 * ROWS + 7)
+    found = diffusion_distances(values, functions, 1024.0)
+    points = functions * np.exp(-values * 1024.0)
+    expected = np.linalg.norm(points[:, None] - points, axis=2)
+    np.testing.assert_allclose(found, expected, atol=1e-3 * float(expected.max()))
+    np.testing.assert_array_equal(found, found.T)
+
+
+def test_quantiles_weigh_each_pair_by_both_areas() -> None:
+    distances = diffusion_distances(*spectrum(6, 2 * ROWS + 7), 1024.0)
+    areas = np.random.default_rng(6).uniform(0.1, 1.0, len(distances))
+    order = np.argsort(distances, axis=None)
+    cumulative = np.cumsum(np.outer(areas, areas).ravel()[order]) / areas.sum() ** 2
+    expected = np.interp((np.arange(64) + 0.5) / 64, cumulative, distances.ravel()[order])
+    found = distance_quantiles(distances, areas, 64)
+    np.testing.assert_allclose(found, expected, atol=1e-4 * float(distances.max()))
 
 
 def test_a_shape_of_one_point_has_only_distance_0() -> None:
