@@ -1,1 +1,1 @@
-"""How well the methods find shapes that were bent, cut and recoloured: the paper's protocol and its report."""
+"""How well the methods find shapes that were bent, cut or recoloured: the paper's protocol, its report."""
