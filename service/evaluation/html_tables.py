@@ -97,7 +97,7 @@ def _beside(value: float | None, known: bool) -> str:
 
 
 def _cell(value: float | None, small: str = "", *, bold: bool = False) -> str:
-    """Return a percentage, its cell the darker the higher."""
+    """Return a percentage, its cell the stronger in colour the higher."""
     if value is None:
         return f'<td class="none">{shown_value(None)}</td>'
     number = f"<b>{shown_value(value)}</b>" if bold else shown_value(value)
