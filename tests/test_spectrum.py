@@ -108,3 +108,20 @@ def test_an_operator_that_cannot_be_factored_is_refused() -> None:
     with pytest.raises(MeshError) as refusal:
         count_below(stiffness, np.zeros(500), 1.0)
     assert refusal.value.code is Code.UNSOLVED
+
+
+def test_a_cap_far_below_the_number_of_pairs_keeps_the_smallest() -> None:
+    vertices, faces = sheet(21)
+    stiffness, areas = cotangent_laplacian(vertices, faces)
+    scale = 1 / np.sqrt(areas)
+    expected = linalg.eigvalsh(scale[:, None] * stiffness.toarray() * scale)[:30]
+    found = solve_eigenpairs(stiffness, areas, 4_000.0, most=30).eigenvalues
+    np.testing.assert_allclose(found, expected, rtol=1e-8, atol=1e-9)
+
+
+def test_eigenfunctions_satisfy_the_equation() -> None:
+    stiffness, areas = operator("cotangent")
+    pairs = solve_eigenpairs(stiffness, areas, PARAMETERS.fine_cutoff)
+    functions = pairs.eigenfunctions
+    residuals = (stiffness @ functions) / areas[:, None] - functions * pairs.eigenvalues
+    np.testing.assert_allclose(residuals, 0.0, atol=1e-8 * PARAMETERS.fine_cutoff * np.abs(functions).max())

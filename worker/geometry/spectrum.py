@@ -7,15 +7,17 @@ from itertools import pairwise
 import numpy as np
 from scipy import linalg, sparse
 from scipy.sparse import csgraph
-from scipy.sparse.linalg import LinearOperator, SuperLU, eigsh, splu
+from scipy.sparse.linalg import SuperLU, splu
 
 from worker.arrays import FloatArray, IntArray
 from worker.errors import Code, MeshError
+from worker.geometry.lanczos import dominant_vectors
 
-SHIFT = -2e-3  # of the inverse iteration, just below the spectrum
-DENSE = 400  # connected pieces of no more vertices are solved densely
-NUDGES = 8  # times that the cutoff is moved by a little where it hits an eigenvalue
-SEED = 2011  # of the first vector
+DENSE = 300  # connected pieces of no more vertices are solved densely
+CROWDED = 0.2  # of all pairs wanted: from here a piece is solved densely as well
+NUDGES = 8  # times that the cutoff or the shift is moved by a little where it hits an eigenvalue
+LOWERINGS = 8  # times that the cutoff is lowered where more pairs than the cap lie below it
+SPARE = 1.2  # how many times the cap may lie below it
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -112,33 +114,63 @@ def _solve_piece(
 ) -> tuple[FloatArray, FloatArray]:
     """Solve one connected piece; (k,) and (n, k)."""
     scale = 1.0 / np.sqrt(mass)
+    symmetric = _scaled(stiffness, scale)  # the same eigenvalues, without A
     if len(mass) <= DENSE:
-        symmetric = scale[:, None] * stiffness.toarray() * scale
-        values, vectors = linalg.eigh(symmetric, subset_by_value=(-np.inf, cutoff))
-        values, vectors = values[:most], scale[:, None] * vectors[:, :most]
+        values, vectors = _solve_dense(symmetric, cutoff)
     else:
-        wanted = min(count_below(stiffness, mass, cutoff), most)
-        values, vectors = _solve_sparse(stiffness, mass, wanted)
-        if wanted < most and (len(values) != wanted or values[-1] > cutoff):
-            raise MeshError(Code.UNSOLVED, f"{wanted} vibration modes were expected, {len(values)} found.")
+        cutoff, wanted = _count_few(stiffness, mass, cutoff, most)
+        values, vectors = _solve_sparse(symmetric, cutoff, wanted)
+    values, vectors = values[:most], scale[:, None] * vectors[:, :most]
     return np.maximum(values, 0.0), _fix_signs(vectors, mass)
 
 
-def _solve_sparse(
-    stiffness: sparse.csc_array, mass: FloatArray, n_pairs: int
-) -> tuple[FloatArray, FloatArray]:
-    """Find the smallest pairs by Lanczos iteration on the inverse (Lehoucq, Sorensen and Yang 1998)."""
-    factors = _factor(stiffness, mass, SHIFT)
-    if factors is None:
-        raise MeshError(Code.UNSOLVED, "The shape's Laplacian could not be factorised.")
-    n = len(mass)
-    inverse = LinearOperator((n, n), matvec=factors.solve, dtype=np.float64)
-    start = np.random.default_rng(SEED).standard_normal(n)
-    values, vectors = eigsh(
-        stiffness, n_pairs, sparse.diags_array(mass), sigma=SHIFT, OPinv=inverse, v0=start, tol=0.0
-    )
-    ascending = np.argsort(values, kind="stable")
-    return values[ascending], _orthonormal(vectors[:, ascending], mass)
+def _scaled(stiffness: sparse.csc_array, scale: FloatArray) -> sparse.csc_array:
+    """Multiply rows and columns of a matrix by the entries of scale."""
+    factors = scale[stiffness.indices] * np.repeat(scale, np.diff(stiffness.indptr))
+    parts = (stiffness.data * factors, stiffness.indices, stiffness.indptr)
+    return sparse.csc_array(parts, shape=stiffness.shape)
+
+
+def _count_few(stiffness: sparse.csc_array, mass: FloatArray, cutoff: float, most: int) -> tuple[float, int]:
+    """Lower a cutoff until not many more than the cap lie below it; return it, and how many do."""
+    count, lower = count_below(stiffness, mass, cutoff), 0.0
+    for _ in range(LOWERINGS):
+        if count <= SPARE * most:
+            break
+        trial = max(cutoff * SPARE * most / count, (lower + cutoff) / 2)  # Weyl (1911): they grow evenly
+        fewer = count_below(stiffness, mass, trial)
+        if fewer < most:
+            lower = trial
+        else:
+            cutoff, count = trial, fewer
+    return cutoff, count
+
+
+def _solve_dense(symmetric: sparse.csc_array, cutoff: float) -> tuple[FloatArray, FloatArray]:
+    values, vectors = linalg.eigh(symmetric.toarray(), subset_by_value=(-np.inf, cutoff))
+    return values, vectors
+
+
+def _solve_sparse(symmetric: sparse.csc_array, cutoff: float, n_pairs: int) -> tuple[FloatArray, FloatArray]:
+    """Find the pairs below a cutoff, known to be so many, by inverse iteration about its half.
+
+    All of them are nearer to it than any other. Rayleigh-Ritz values bound the true ones from above
+    (Parlett 1980, section 10.1): so many below the cutoff are all that there are.
+    """
+    n = symmetric.shape[0]
+    if n_pairs > CROWDED * n:
+        return _solve_dense(symmetric, cutoff)
+    for nudge in range(NUDGES):
+        shift = cutoff * (0.5 - 0.01 * nudge)
+        factors = _factor(symmetric, np.ones(n), shift)
+        if factors is None:
+            continue
+        span = dominant_vectors(factors.solve, n, n_pairs, 1.0 / (cutoff - shift))  # (n_pairs, n)
+        if span is not None:
+            values, turns = linalg.eigh(span @ (symmetric @ span.T))
+            if values.max(initial=0.0) <= cutoff * (1.0 + 1e-9):
+                return values, span.T @ turns
+    raise MeshError(Code.UNSOLVED, f"{n_pairs} vibration modes were expected, and not all found.")
 
 
 def _factor(stiffness: sparse.csc_array, mass: FloatArray, shift: float) -> SuperLU | None:
@@ -152,13 +184,7 @@ def _factor(stiffness: sparse.csc_array, mass: FloatArray, shift: float) -> Supe
         return None
 
 
-def _orthonormal(vectors: FloatArray, mass: FloatArray) -> FloatArray:
-    """Remove what rounding left of φᵀ A φ − I; the span stays."""
-    factor = linalg.cholesky(vectors.T @ (mass[:, None] * vectors), lower=False)
-    return np.asarray(linalg.solve_triangular(factor, vectors.T, trans="T", lower=False).T)
-
-
 def _fix_signs(vectors: FloatArray, mass: FloatArray) -> FloatArray:
     """Choose the sign of each eigenfunction: its third moment is not negative."""
-    moments = np.sum(mass[:, None] * vectors**3, axis=0)
+    moments = mass @ (vectors * vectors * vectors)
     return vectors * np.where(moments < 0, -1.0, 1.0)
