@@ -1,9 +1,17 @@
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.shapes import box, sphere
-from worker.geometry.areas import edge_lengths, face_vectors, triangle_areas, vertex_areas, vertex_normals
+from worker.geometry.areas import (
+    edge_lengths,
+    face_vectors,
+    norms,
+    triangle_areas,
+    vertex_areas,
+    vertex_normals,
+)
 
 
 def test_a_right_triangle_has_half_the_product_of_its_legs() -> None:
@@ -31,3 +39,9 @@ def test_vertex_areas_sum_to_the_surface() -> None:
 def test_the_normals_of_a_sphere_are_its_points() -> None:
     vertices, faces = sphere(3)
     np.testing.assert_allclose(vertex_normals(vertices, faces), vertices, atol=2e-2)
+
+
+@pytest.mark.parametrize("shape", [(50, 2), (50, 3), (20, 3, 6)])
+def test_norms_are_lengths(shape: tuple[int, ...]) -> None:
+    vectors = np.random.default_rng(1).standard_normal(shape)
+    np.testing.assert_allclose(norms(vectors), np.linalg.norm(vectors, axis=-1), rtol=1e-14)

@@ -2,7 +2,7 @@ import numpy as np
 
 from tests.shapes import sheet, sphere
 from worker.geometry.areas import face_vectors
-from worker.geometry.collapse import collapse_short_edges
+from worker.geometry.collapse import _ascending, _common_neighbours, _quadrics, collapse_short_edges
 from worker.geometry.edges import find_edges, lengths_of
 
 
@@ -45,3 +45,24 @@ def test_a_tetrahedron_stays() -> None:
     fewer, triangles = collapse_short_edges(vertices, faces, 2)
     assert len(fewer) == 4
     assert len(triangles) == 4
+
+
+def test_planes_of_a_vertex_meet_in_it() -> None:
+    vertices, faces = sphere(2)
+    equations = _quadrics(vertices, faces)
+    points = np.linalg.solve(equations[:, :, :3], equations[:, :, 3:])[:, :, 0]
+    np.testing.assert_allclose(points, vertices, atol=1e-9)
+
+
+def test_common_neighbours_are_those_of_both_ends() -> None:
+    _, faces = sphere(1)
+    ends = find_edges(faces).ends
+    around = [set(ends[(ends == vertex).any(axis=1)].ravel()) - {vertex} for vertex in range(faces.max() + 1)]
+    pairs = ends[[0]]
+    owners, common = _common_neighbours(ends, pairs, len(around))
+    assert set(common) == around[pairs[0, 0]] & around[pairs[0, 1]]
+    np.testing.assert_array_equal(owners, 0)
+
+
+def test_of_equal_costs_the_first_comes_first() -> None:
+    np.testing.assert_array_equal(_ascending(np.array([2.0, 1.0, np.inf, 1.0, 0.5])), [4, 1, 3, 0, 2])

@@ -1,7 +1,9 @@
 import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
 
 from tests.shapes import SQUARE, box, sphere
-from worker.geometry.edges import find_edges, lengths_of
+from worker.geometry.edges import find_edges, lengths_of, stable_order
 
 
 def test_a_closed_surface_has_three_edges_for_every_two_faces() -> None:
@@ -29,3 +31,9 @@ def test_lengths_are_euclidean() -> None:
     vertices, faces, _ = box()
     lengths = lengths_of(vertices, find_edges(faces))
     np.testing.assert_allclose(np.sort(lengths), np.sort([1.0] * 12 + [np.sqrt(2.0)] * 6))
+
+
+@given(st.lists(st.sampled_from([0, 1, 7, 1 << 40, (1 << 62) - 1])))
+def test_the_order_sorts_and_keeps_equal_keys_as_they_stand(keys: list[int]) -> None:
+    expected = sorted(range(len(keys)), key=lambda place: keys[place])
+    np.testing.assert_array_equal(stable_order(np.array(keys, dtype=np.int64)), expected)

@@ -21,7 +21,7 @@ def edge_lengths(points: FloatArray, faces: IntArray) -> FloatArray:
         Column i is the length from corner i to corner i + 1.
     """
     corners = points[faces]  # (m, 3, d)
-    return np.asarray(np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2))
+    return norms(corners[:, [1, 2, 0]] - corners)
 
 
 def triangle_areas(lengths: FloatArray) -> FloatArray:
@@ -63,7 +63,7 @@ def vertex_areas(faces: IntArray, areas: FloatArray, n_vertices: int) -> FloatAr
 
 def face_vectors(vertices: FloatArray, faces: IntArray) -> FloatArray:
     """Return for each face its normal, as long as its area; (m, 3)."""
-    first, second, third = (vertices[faces[:, corner]] for corner in range(3))
+    first, second, third = (vertices.take(faces[:, corner], axis=0) for corner in range(3))
     return np.asarray(np.cross(second - first, third - first) / 2.0)
 
 
@@ -76,5 +76,13 @@ def vertex_normals(vertices: FloatArray, faces: IntArray) -> FloatArray:
 
 def unit(vectors: FloatArray) -> FloatArray:
     """Scale vectors to length 1; those of length 0 stay; (n, d)."""
-    norms = np.linalg.norm(vectors, axis=1, keepdims=True)
-    return np.asarray(vectors / np.where(norms > 0, norms, 1.0))
+    lengths = norms(vectors)
+    return np.asarray(vectors / np.where(lengths > 0, lengths, 1.0)[:, None])
+
+
+def norms(vectors: FloatArray) -> FloatArray:
+    """Return the lengths of vectors (…, d), (…): several times faster than numpy's for a small d."""
+    squares = vectors[..., 0] * vectors[..., 0]
+    for axis in range(1, vectors.shape[-1]):
+        squares += vectors[..., axis] * vectors[..., axis]
+    return np.asarray(np.sqrt(squares))

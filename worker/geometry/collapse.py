@@ -7,10 +7,9 @@ touch one another's triangles; a new vertex minimises the quadric error of Garla
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import sparse
 
 from worker.arrays import BoolArray, FloatArray, IntArray
-from worker.geometry.areas import face_vectors, unit
+from worker.geometry.areas import face_vectors, norms, unit
 from worker.geometry.edges import Edges, find_edges, lengths_of
 
 SHARE = 0.4  # of the edges, the shortest, may collapse in a round
@@ -70,27 +69,30 @@ def _quadrics(vertices: FloatArray, faces: IntArray) -> FloatArray:
     vectors = face_vectors(vertices, faces)
     normals = unit(vectors)
     edges = find_edges(faces)
-    quadrics = np.zeros((len(vertices), 3, 4))
-    areas = np.linalg.norm(vectors, axis=1)
-    _add_planes(quadrics, faces, vertices[faces[:, 0]], normals, areas)
     face, corner = np.nonzero(edges.n_faces[edges.of_faces] == 1)
     start, end = faces[face, corner], faces[face, (corner + 1) % 3]
     along = vertices[end] - vertices[start]
     across = unit(np.cross(along, normals[face]))
-    _add_planes(quadrics, np.column_stack([start, end]), vertices[start], across, np.sum(along**2, axis=1))
-    return quadrics
+    owners = [*faces.T, start, end]
+    planes = [_planes(vertices[faces[:, 0]], normals, norms(vectors))] * 3
+    planes += [_planes(vertices[start], across, np.sum(along**2, axis=1))] * 2
+    return _sums(np.concatenate(owners), np.concatenate(planes, axis=1), len(vertices))
 
 
-def _add_planes(
-    quadrics: FloatArray, owners: IntArray, points: FloatArray, normals: FloatArray, weights: FloatArray
-) -> None:
+def _planes(points: FloatArray, normals: FloatArray, weights: FloatArray) -> FloatArray:
+    """Return the entries 11, 12, 13, 22, 23, 33, 14, 24, 34 of the (3, 4) equations of planes; (9, p)."""
+    x, y, z = normals.T
     offsets = np.sum(normals * points, axis=1)  # n·x = offset on the plane
-    rows = np.concatenate(
-        [normals[:, :, None] * normals[:, None, :], (offsets[:, None] * normals)[:, :, None]], 2
-    )
-    rows *= weights[:, None, None]  # (p, 3, 4)
-    for column in owners.T:
-        np.add.at(quadrics, column, rows)
+    entries = [x * x, x * y, x * z, y * y, y * z, z * z, offsets * x, offsets * y, offsets * z]
+    return np.stack(entries) * weights
+
+
+def _sums(owners: IntArray, planes: FloatArray, n_vertices: int) -> FloatArray:
+    """Add up the equations of the planes that each vertex owns; (n, 3, 4)."""
+    sums = [np.bincount(owners, entry, n_vertices) for entry in planes]
+    places = [0, 1, 2, 6, 1, 3, 4, 7, 2, 4, 5, 8]  # of the entries, row by row
+    rows = np.stack([sums[place] for place in places], axis=1)  # (n, 12)
+    return rows.reshape(-1, 3, 4).astype(np.float64)
 
 
 def _choose(surface: _Surface, edges: Edges, most: int, longest: float) -> IntArray:
@@ -100,7 +102,7 @@ def _choose(surface: _Surface, edges: Edges, most: int, longest: float) -> IntAr
     # Where lengths are equal or rise along the surface, few edges would be shorter than all around them.
     shuffle = np.random.default_rng(len(lengths)).uniform(1.0, SHUFFLE, len(lengths))
     costs = np.where((worst > GIVE_UP) | (lengths > longest), np.inf, lengths * worst * shuffle)
-    shortest = np.argsort(costs, kind="stable")[: max(1, int(SHARE * len(costs)))]
+    shortest = _ascending(costs)[: max(1, int(SHARE * len(costs)))]
     shortest = shortest[np.isfinite(costs[shortest])]
     chosen = shortest[_alone(edges.ends, edges.ends[shortest], len(surface.vertices))]
     keeps = _keeps_topology(surface, edges, chosen)
@@ -110,15 +112,24 @@ def _choose(surface: _Surface, edges: Edges, most: int, longest: float) -> IntAr
     return _choose(surface, edges, most, longest)
 
 
+def _ascending(costs: FloatArray) -> IntArray:
+    """Order costs, equal ones as they stand, save infinite ones; ties are rare, stability slow."""
+    order = np.argsort(costs)
+    ordered = costs[order]
+    ties = (ordered[1:] == ordered[:-1]) & np.isfinite(ordered[1:])
+    return np.argsort(costs, kind="stable") if ties.any() else order
+
+
 def _alone(ends: IntArray, candidates: IntArray, n_vertices: int) -> BoolArray:
     """Tell which candidates (sorted, best first) no better one touches, nor touches a neighbour of."""
     ranks = np.arange(len(candidates))
     best = np.full(n_vertices, len(candidates))
-    np.minimum.at(best, candidates, ranks[:, None])
-    around = best.copy()
-    np.minimum.at(around, ends[:, 0], best[ends[:, 1]])
-    np.minimum.at(around, ends[:, 1], best[ends[:, 0]])
-    return np.asarray((around[candidates] == ranks[:, None]).all(axis=1))
+    best[candidates[::-1].ravel()] = np.repeat(ranks[::-1], 2)  # of several, the last one stays
+    at_start, at_end = best[ends[:, 0]], best[ends[:, 1]]
+    beaten = np.zeros(n_vertices, dtype=np.bool_)
+    beaten[ends[at_end < at_start, 0]] = True
+    beaten[ends[at_start < at_end, 1]] = True
+    return np.asarray(((best[candidates] == ranks[:, None]) & ~beaten[candidates]).all(axis=1))
 
 
 def _keeps_topology(surface: _Surface, edges: Edges, chosen: IntArray) -> BoolArray:
@@ -128,19 +139,40 @@ def _keeps_topology(surface: _Surface, edges: Edges, chosen: IntArray) -> BoolAr
     """
     n = len(surface.vertices)
     ends = edges.ends
-    ones = np.ones(2 * len(ends), dtype=np.int32)
-    rows, columns = np.concatenate([ends, ends[:, ::-1]]).T
-    adjacent = sparse.csr_array((ones, (rows, columns)), shape=(n, n))
-    start, end = ends[chosen].T
-    common = adjacent[start].multiply(adjacent[end]).astype(bool).astype(np.int32)
-    shared = np.asarray(common.sum(axis=1)).ravel()
-    tetrahedron = common @ (np.bincount(ends.ravel(), minlength=n) == 3) > 1
+    owners, common = _common_neighbours(ends, ends[chosen], n)
+    shared = np.bincount(owners, minlength=len(chosen))
+    threefold = np.bincount(ends.ravel(), minlength=n) == 3
+    tetrahedron = np.bincount(owners[threefold[common]], minlength=len(chosen)) > 1
     alone = np.zeros(len(ends), dtype=bool)
     alone[edges.of_faces[(edges.n_faces[edges.of_faces] == 1).all(axis=1)]] = True
     boundary = np.zeros(n, dtype=bool)
     boundary[ends[edges.n_faces == 1]] = True
-    pinches = boundary[start] & boundary[end] & (edges.n_faces[chosen] > 1)
+    pinches = boundary[ends[chosen]].all(axis=1) & (edges.n_faces[chosen] > 1)
     return np.asarray((shared == edges.n_faces[chosen]) & ~pinches & ~tetrahedron & ~alone[chosen])
+
+
+def _common_neighbours(ends: IntArray, pairs: IntArray, n_vertices: int) -> tuple[IntArray, IntArray]:
+    """List the vertices that edges join to both of a pair; pairs (c, 2) share no vertex.
+
+    Returns
+    -------
+    owners, common : (k,) arrays
+        The pair, and the vertex.
+    """
+    owners = np.full(n_vertices, -1)
+    owners[pairs] = np.arange(len(pairs))[:, None]
+    at_start, at_end = owners[ends[:, 0]], owners[ends[:, 1]]
+    other = at_start != at_end
+    from_start, from_end = (at_start >= 0) & other, (at_end >= 0) & other
+    keys = np.concatenate(
+        [
+            at_start[from_start] * n_vertices + ends[from_start, 1],
+            at_end[from_end] * n_vertices + ends[from_end, 0],
+        ]
+    )
+    keys.sort()
+    both = keys[1:][keys[1:] == keys[:-1]]
+    return both // n_vertices, both % n_vertices
 
 
 def _collapse(surface: _Surface, pairs: IntArray) -> None:
@@ -155,7 +187,7 @@ def _collapse(surface: _Surface, pairs: IntArray) -> None:
     new = np.arange(len(surface.vertices))
     new[gone] = kept
     faces = new[surface.faces]
-    whole = (faces != np.roll(faces, 1, axis=1)).all(axis=1)
+    whole = (faces != faces[:, [2, 0, 1]]).all(axis=1)
     _compact(surface, faces[whole])
 
 
@@ -190,9 +222,9 @@ def _turns_over(surface: _Surface, pairs: IntArray, targets: FloatArray) -> Bool
 
 def _compact(surface: _Surface, faces: IntArray) -> None:
     """Drop the vertices that no face names any more."""
-    used = np.unique(faces)
-    new = np.full(len(surface.vertices), -1)
-    new[used] = np.arange(len(used))
+    named = np.zeros(len(surface.vertices), dtype=np.bool_)
+    named[faces] = True
+    used, new = np.flatnonzero(named), np.cumsum(named) - 1
     surface.faces = new[faces]
     surface.vertices = surface.vertices[used]
     surface.quadrics = surface.quadrics[used]

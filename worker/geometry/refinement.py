@@ -3,6 +3,7 @@
 import numpy as np
 
 from worker.arrays import FloatArray, IntArray
+from worker.geometry.areas import norms
 from worker.geometry.edges import Edges, find_edges, lengths_of
 
 
@@ -58,9 +59,7 @@ def _into_two(_: FloatArray, corners: IntArray, cuts: IntArray) -> IntArray:
 def _into_three(vertices: FloatArray, corners: IntArray, cuts: IntArray) -> IntArray:
     a, b, c = corners.T
     ab, bc = cuts[:, 0], cuts[:, 1]
-    shorter = np.linalg.norm(vertices[a] - vertices[bc], axis=1) < np.linalg.norm(
-        vertices[ab] - vertices[c], axis=1
-    )
+    shorter = norms(vertices[a] - vertices[bc]) < norms(vertices[ab] - vertices[c])
     first = _stack((ab, b, bc), (a, ab, bc), (a, bc, c))
     second = _stack((ab, b, bc), (a, ab, c), (ab, bc, c))
     return np.where(np.tile(shorter, 3)[:, None], first, second)

@@ -4,7 +4,7 @@ import fast_simplification
 import numpy as np
 
 from worker.arrays import FloatArray, IntArray
-from worker.geometry.areas import edge_lengths, face_vectors
+from worker.geometry.areas import edge_lengths, face_vectors, norms
 from worker.geometry.collapse import collapse_short_edges
 from worker.geometry.refinement import split_long_edges
 
@@ -20,7 +20,7 @@ SECTION = np.array(
 def normalise_area(vertices: FloatArray, faces: IntArray, area: float) -> FloatArray:
     """Centre a mesh and scale it to a total area; (n, 3)."""
     centred = vertices - vertices.mean(axis=0)
-    total = np.linalg.norm(face_vectors(centred, faces), axis=1).sum()
+    total = norms(face_vectors(centred, faces)).sum()
     return np.asarray(centred * np.sqrt(area / total))
 
 
@@ -74,7 +74,7 @@ def sample_surface(vertices: FloatArray, faces: IntArray, n_samples: int) -> tup
     face_indices : (n_samples,) array
     barycentrics : (n_samples, 3) array
     """
-    summed = np.cumsum(np.linalg.norm(face_vectors(vertices, faces), axis=1))
+    summed = np.cumsum(norms(face_vectors(vertices, faces)))
     steps = (np.arange(n_samples) + 0.5) * (summed[-1] / n_samples)
     face_indices = np.minimum(np.searchsorted(summed, steps), len(faces) - 1)
     square = (0.5 + np.arange(1, n_samples + 1)[:, None] * SECTION) % 1.0  # (n_samples, 2)
