@@ -45,12 +45,6 @@ class UnknownMethod(CatalogueError):
     code = "unknown_method"
 
 
-class MethodUnavailable(CatalogueError):
-    """The method is planned, but nothing computes its blocks yet."""
-
-    code = "method_unavailable"
-
-
 class BadWeights(CatalogueError):
     """Weights that name a block the method lacks, are negative or not finite, or are all zero."""
 

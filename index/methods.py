@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from index.errors import BadWeights, MethodUnavailable, UnknownMethod
+from index.errors import BadWeights, UnknownMethod
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,7 +23,7 @@ class Method:
     name: str  # stable; users ask for it
     blocks: tuple[Block, ...]  # the terms
     description: str  # for people
-    available: bool = True  # False where nothing computes its blocks yet
+    refined: int = 0  # how many of the first are compared again by registration of their landmarks
 
     @property
     def power(self) -> int:
@@ -49,7 +49,8 @@ METHODS = _table(
             Block(name="colour-histogram", weight=1 / 1.87, power=1),
             Block(name="colour-curves", weight=1 / 150.5, power=1),
         ),
-        description="Geometry, colours and where on the surface they are: finds most under any change",
+        description="Geometry, colours and where on the surface they are, then registration of the first",
+        refined=24,
     ),
     Method(
         name="chks",
@@ -84,18 +85,15 @@ METHODS = _table(
         name="meshhog",
         blocks=(Block(name="meshhog", weight=1.0, power=1),),
         description="Histograms of colour gradients around salient points (Zaharescu et al. 2009)",
-        available=False,
     ),
 )
 
 
 def method(name: str) -> Method:
-    """Return a method that can be used; UnknownMethod or MethodUnavailable otherwise."""
+    """Return a method by its name; UnknownMethod where there is none."""
     found = METHODS.get(name)
     if found is None:
         raise UnknownMethod(f"no method is called {name!r}; there are {', '.join(METHODS)}")
-    if not found.available:
-        raise MethodUnavailable(f"the method {name!r} cannot be used yet")
     return found
 
 

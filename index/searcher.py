@@ -67,7 +67,7 @@ class Searcher:
 
         Raises
         ------
-        UnknownMethod, MethodUnavailable, BadWeights, BadBlock
+        UnknownMethod, BadWeights, BadBlock
             The question is wrong.
         VocabularyChanged
             Another vocabulary became active meanwhile: quantise the query again and repeat.

@@ -19,8 +19,9 @@ from index.errors import BadVocabulary
 SingleArray = npt.NDArray[np.float32]
 FloatArray = npt.NDArray[np.float64]
 
-N_WORDS = {"log-hks": 64}  # of each block; 48, the paper's number, for the others
+N_WORDS = {"log-hks": 128}  # of each block; 48, the paper's number, for the others
 PAPER_WORDS = 48
+FEATURES = ("meshhog",)  # blocks whose rows are features of their own, not vertices; a shape may have none
 GRIDS = ("diffusion-geometric", "diffusion-joint")
 GRID_POINTS = 128
 SHORTEST = 0.005  # quantile of all distances at which a grid begins
@@ -146,7 +147,11 @@ def learn_vocabulary(
         Where the shapes show fewer different signatures than there are words.
     """
     samples, distances = _gather(shapes, np.random.default_rng(seed))
-    words = {block: learn_words(parts, block, softness, seed) for block, parts in samples.items()}
+    words = {
+        block: learn_words(parts, block, softness, seed)
+        for block, parts in samples.items()
+        if block not in FEATURES or len(np.unique(parts, axis=0)) >= PAPER_WORDS  # a library without colours
+    }
     grids = {block: _grid(pooled) for block, pooled in distances.items()}
     return Vocabulary(fingerprint=fingerprint, words=words, grids=grids)
 
@@ -182,7 +187,8 @@ def _gather(
         areas = np.asarray(signatures["areas"], np.float64)
         rows = random.choice(len(areas), per_shape, p=areas / areas.sum())
         for block in _word_blocks(signatures):
-            draws.setdefault(block, []).append(np.asarray(signatures[block][rows], np.float64))
+            drawn = _evenly(len(signatures[block]), per_shape) if block in FEATURES else rows
+            draws.setdefault(block, []).append(np.asarray(signatures[block][drawn], np.float64))
         for block in GRIDS:
             quantiles = np.asarray(signatures[block], np.float64)
             distances.setdefault(block, []).append(quantiles[:: max(1, len(quantiles) // PER_GRID)])
@@ -203,7 +209,12 @@ def _grid(distances: FloatArray) -> FloatArray:
 
 
 def _word_blocks(signatures: Mapping[str, SingleArray]) -> Iterator[str]:
-    return (name for name in sorted(signatures) if name == "log-hks" or name.startswith("hks-"))
+    return (name for name in sorted(signatures) if name in ("log-hks", *FEATURES) or name.startswith("hks-"))
+
+
+def _evenly(n_rows: int, most: int) -> npt.NDArray[np.int64]:
+    """Choose rows of features that are not vertices, each as good as another."""
+    return np.unique(np.linspace(0, n_rows - 1, min(n_rows, most)).astype(np.int64))
 
 
 def _cluster(samples: FloatArray, n_words: int, seed: int) -> FloatArray:

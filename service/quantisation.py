@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from index.errors import FingerprintMismatch
-from index.vocabulary import Vocabulary
+from index.vocabulary import FEATURES, Vocabulary
 from worker.arrays import FloatArray, SingleArray
 from worker.descriptors.bags import bag_of_features
 from worker.descriptors.diffusion import distribution_on_grid
@@ -24,13 +24,14 @@ def quantise(signatures: Mapping[str, SingleArray], vocabulary: Vocabulary) -> d
     Returns
     -------
     dict of name to array
-        Bags of words, which sum to 1, and cumulative distributions.
+        Bags of words, which sum to 1 (to 0 where a shape has no features), and cumulative distributions.
     """
     areas = np.asarray(signatures["areas"], np.float64)
     blocks: dict[str, FloatArray] = {}
     for name, words in vocabulary.words.items():
         standardised = (np.asarray(signatures[name], np.float64) - words.centre) / words.spread
-        blocks[name] = bag_of_features(standardised, areas, words.words, words.softness)
+        weights = np.ones(len(standardised)) if name in FEATURES else areas
+        blocks[name] = bag_of_features(standardised, weights, words.words, words.softness)
     for name, grid in vocabulary.grids.items():
         blocks[name] = distribution_on_grid(np.asarray(signatures[name], np.float64), grid)
     return {name: block.astype(np.float32) for name, block in blocks.items()}

@@ -15,7 +15,8 @@ from service.intake.submissions import Submission
 from service.jobs.describing import Describe, describe_files
 from service.library import Library
 from service.quantisation import quantise
-from service.storage import upload_key
+from service.refining import LANDMARKS, QUERY_LADDER, QueryLandmarks, refine
+from service.storage import load_signatures, upload_key
 from service.vocabularies import active_vocabulary
 from worker.arrays import SingleArray
 from worker.describe import Description, MeshFacts
@@ -99,7 +100,7 @@ def find_similar(library: Library, shape_id: str, question: Question) -> Answer:
 
     Raises
     ------
-    ShapeNotFound, NotReady, UnknownMethod, MethodUnavailable, BadWeights
+    ShapeNotFound, NotReady, UnknownMethod, BadWeights
     """
     start = time.perf_counter()
     shape = library.catalogue.get(shape_id)
@@ -109,7 +110,14 @@ def find_similar(library: Library, shape_id: str, question: Question) -> Answer:
     def blocks(vocabulary: Vocabulary) -> Mapping[str, SingleArray]:
         return library.catalogue.blocks(shape_id, vocabulary.id)
 
-    return _answer(library, question, _rank(library, question, blocks, exclude=(shape_id,)), start)
+    def landmarks() -> QueryLandmarks:
+        packed = library.catalogue.blocks_of([shape_id], [LANDMARKS])[shape_id][LANDMARKS]
+        return QueryLandmarks(
+            packed=packed, ladder=load_signatures(library.files, shape_id, [QUERY_LADDER])[QUERY_LADDER]
+        )
+
+    found = _rank(library, question, blocks, landmarks, exclude=(shape_id,))
+    return _answer(library, question, found, start)
 
 
 def search_upload(
@@ -128,7 +136,7 @@ def search_upload(
 
     Raises
     ------
-    MeshError, UnknownMethod, MethodUnavailable, BadWeights
+    MeshError, UnknownMethod, BadWeights
     """
     start = time.perf_counter()
     check_question(question)
@@ -148,7 +156,12 @@ def search_description(
     def blocks(vocabulary: Vocabulary) -> Mapping[str, SingleArray]:
         return {**description.blocks, **quantise(description.signatures, vocabulary)}
 
-    return _rank(library, question, blocks)
+    def landmarks() -> QueryLandmarks:
+        return QueryLandmarks(
+            packed=description.blocks[LANDMARKS], ladder=description.signatures[QUERY_LADDER]
+        )
+
+    return _rank(library, question, blocks, landmarks)
 
 
 def change_shape(
@@ -189,7 +202,24 @@ def _delete_files(library: Library, files: Iterable[StoredFile]) -> None:
 
 
 def _rank(
-    library: Library, question: Question, blocks: BlocksIn, exclude: tuple[str, ...] = ()
+    library: Library,
+    question: Question,
+    blocks: BlocksIn,
+    landmarks: Callable[[], QueryLandmarks],
+    exclude: tuple[str, ...] = (),
+) -> list[tuple[str, float]]:
+    """Search, and refine the first where the method does; own weights ask for the blocks alone."""
+    first = 0 if question.weights else method(question.method).refined
+    found = _search(library, question, blocks, max(question.limit, first), exclude)
+    if not found or not first:
+        return found
+    blocks_of = library.catalogue.blocks_of([shape_id for shape_id, _ in found[:first]], [LANDMARKS])
+    stored = {shape_id: block[LANDMARKS] for shape_id, block in blocks_of.items() if block}
+    return refine(found, landmarks(), stored, first)[: question.limit]
+
+
+def _search(
+    library: Library, question: Question, blocks: BlocksIn, limit: int, exclude: tuple[str, ...]
 ) -> list[tuple[str, float]]:
     """Search with the active vocabulary; once more where another becomes active in this moment."""
     for _ in range(ATTEMPTS):
@@ -198,7 +228,7 @@ def _rank(
             return library.searcher.search(
                 question.method,
                 blocks(vocabulary),
-                question.limit,
+                limit,
                 weights=question.weights,
                 exclude=exclude,
                 vocabulary_id=vocabulary.id,

@@ -1,7 +1,7 @@
 """Under which keys a library keeps its files, and the signatures among them."""
 
 import io
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 import numpy as np
 
@@ -31,8 +31,10 @@ def save_signatures(files: FileStore, shape_id: str, signatures: Mapping[str, Si
     files.put(derived_key(shape_id, SIGNATURES), buffer.getvalue())
 
 
-def load_signatures(files: FileStore, shape_id: str) -> dict[str, SingleArray]:
-    """Return the signatures of a ready shape; FileMissing where there are none."""
+def load_signatures(
+    files: FileStore, shape_id: str, names: Collection[str] | None = None
+) -> dict[str, SingleArray]:
+    """Return the signatures of a ready shape, or only some of them; FileMissing where there are none."""
     data = files.get(derived_key(shape_id, SIGNATURES))
     with np.load(io.BytesIO(data), allow_pickle=False) as archive:
-        return {name: archive[name] for name in archive.files}
+        return {name: archive[name] for name in names or archive.files}

@@ -65,7 +65,6 @@ def test_one_bad_query_does_not_hide_the_others(tmp_path: Path, library: Path) -
         (["nothere.ply"], "there is no file or folder"),
         (["."], "is a folder"),
         (["nothere.ply", "--method", "magic"], "no method is called 'magic'"),
-        (["nothere.ply", "--method", "meshhog"], "cannot be used yet"),
     ],
 )
 def test_what_is_wrong_is_one_plain_line(library: Path, arguments: list[str], words: str) -> None:

@@ -2,7 +2,7 @@ import math
 
 import pytest
 
-from index.errors import BadWeights, MethodUnavailable, UnknownMethod
+from index.errors import BadWeights, UnknownMethod
 from index.methods import DEFAULT_METHOD, METHODS, method, with_weights
 
 
@@ -35,12 +35,10 @@ def test_rows_keep_what_the_search_relies_on(name: str) -> None:
     assert all(block.weight > 0 for block in row.blocks)
 
 
-def test_methods_that_cannot_be_used_are_told_apart_from_unknown_ones() -> None:
+def test_a_method_is_found_by_its_exact_name() -> None:
     assert method("chks") is METHODS["chks"]
     with pytest.raises(UnknownMethod, match="fused"):
         method("Fused")
-    with pytest.raises(MethodUnavailable):
-        method("meshhog")
 
 
 def test_own_weights_replace_those_they_name() -> None:

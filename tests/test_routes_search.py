@@ -62,7 +62,6 @@ def test_own_weights_are_taken_in_both_forms_and_scale_the_distance(service: Ser
     ("query", "code"),
     [
         ("method=nothing", "unknown_method"),
-        ("method=meshhog", "method_unavailable"),
         ("weights=hks-0:1", "bad_weights"),
         ("weights=log-hks:-1", "bad_weights"),
         ("weights=log-hks:nan", "bad_weights"),

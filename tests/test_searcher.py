@@ -11,7 +11,6 @@ from sqlalchemy import event
 from index.errors import (
     BadBlock,
     BadWeights,
-    MethodUnavailable,
     StorageFull,
     UnknownMethod,
     VocabularyChanged,
@@ -282,8 +281,6 @@ def test_wrong_questions_are_named(opened: Opened, tmp_path: Path) -> None:
     blocks = make_blocks(1)
     with pytest.raises(UnknownMethod, match="fused"):
         searcher.search("best", blocks, 5)
-    with pytest.raises(MethodUnavailable):
-        searcher.search("meshhog", blocks, 5)
     with pytest.raises(BadWeights):
         searcher.search("hks", blocks, 5, weights={"hks-0": -1.0})
     with pytest.raises(BadBlock, match="log-hks"):

@@ -13,7 +13,7 @@ def made_signatures(seed: int, n: int = 300) -> Signatures:
     signatures = {name: random.uniform(1e-4, 1e-3, (n, 6)) for name in ("hks-0", "hks-0.05", "hks-0.1")}
     signatures["log-hks"] = random.normal(-0.5, 0.1, (n, 6))
     signatures["areas"] = random.uniform(1, 5, n)
-    signatures["raw-curves"] = random.uniform(0, 100, (3, 16, 3))
+    signatures["landmark-ladder"] = random.uniform(-9, 0, (256, 28))
     for name in ("diffusion-geometric", "diffusion-joint"):
         signatures[name] = np.sort(random.uniform(0, 1 + seed, 1024))
     return {name: array.astype(np.float32) for name, array in signatures.items()}

@@ -9,6 +9,8 @@ from worker.arrays import FloatArray, SingleArray
 from worker.canonical import Surface, canonical_surface
 from worker.descriptors.curves import colour_curves, whiten_curves
 from worker.descriptors.histograms import lab_histogram
+from worker.descriptors.landmarks import pack, place_landmarks
+from worker.descriptors.meshhog import mesh_features
 from worker.geometry.areas import face_vectors
 from worker.geometry.repair import Repaired, repair
 from worker.intrinsic import Intrinsic, describe_triangles, distribution, signatures_at
@@ -75,8 +77,8 @@ def describe(
     return Description(
         fingerprint=parameters.fingerprint(),
         facts=_facts(mesh, repaired),
-        blocks=_single(blocks),
-        signatures=_single(signatures),
+        blocks=in_single_precision(blocks),
+        signatures=in_single_precision(signatures),
         thumbnail=thumbnail(mesh, repaired),
         preview=preview(surface.vertices, surface.faces, surface.srgb),
     )
@@ -97,28 +99,35 @@ def describe_surface(
     Returns
     -------
     blocks : dict
-        ``colour-histogram`` (b,) and ``colour-curves`` (144,).
+        ``colour-histogram`` (b,), ``colour-curves`` (144,), ``landmarks`` (10 p,).
     signatures : dict
         ``areas`` (n,), ``hks-η`` (n, 6) and ``eigenvalues-η`` (k,) for each η, ``log-hks`` (n, 6),
-        ``diffusion-geometric`` and ``diffusion-joint`` (quantiles), ``raw-curves`` (t, b, 3).
+        ``diffusion-geometric`` and ``diffusion-joint`` (quantiles), ``landmark-ladder`` (p, j),
+        ``meshhog`` (f, 96), of L.
     """
     shared = intrinsic or describe_triangles(surface.vertices, surface.faces, parameters)
-    curves = colour_curves(shared.orders, surface.lab, shared.areas, parameters.curve_bins)
+    placed = place_landmarks(
+        surface.vertices, shared.landmarks, shared.areas, surface.lab, parameters.landmarks
+    )
     blocks = {
+        "landmarks": pack(shared.signatures["landmark-ladder"], placed).ravel(),
         "colour-histogram": lab_histogram(
             surface.sample_lab, parameters.histogram_bins, parameters.histogram_smoothing
         ),
-        "colour-curves": whiten_curves(curves),
+        "colour-curves": whiten_curves(
+            colour_curves(shared.orders, surface.lab, shared.areas, parameters.curve_bins)
+        ),
     }
     spectra = {
         weight: solve_joint(surface.vertices, surface.faces, surface.lab, weight, parameters)
         for weight in {*parameters.colour_weights, *parameters.distance_weights} - {0.0}
     } | {0.0: shared.spectrum}
-    signatures = {**shared.signatures, "raw-curves": curves}
+    signatures = dict(shared.signatures)
     for weight, spectrum in sorted(spectra.items()):
         signatures[f"eigenvalues-{weight:g}"] = spectrum.eigenvalues
         if weight in parameters.colour_weights:
             signatures[f"hks-{weight:g}"] = signatures_at(spectrum, parameters.times)
+    signatures["meshhog"] = mesh_features(surface.lab[:, 0], surface.vertices, surface.faces)
     signatures["diffusion-joint"] = distribution(
         [spectra[weight] for weight in parameters.distance_weights], shared.samples, shared.shares, parameters
     )
@@ -137,5 +146,6 @@ def _facts(mesh: Mesh, repaired: Repaired) -> MeshFacts:
     )
 
 
-def _single(arrays: Mapping[str, FloatArray]) -> dict[str, SingleArray]:
+def in_single_precision(arrays: Mapping[str, FloatArray | SingleArray]) -> dict[str, SingleArray]:
+    """Return arrays as they are kept."""
     return {name: np.ascontiguousarray(array, dtype=np.float32) for name, array in arrays.items()}

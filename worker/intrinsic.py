@@ -7,7 +7,8 @@ import numpy as np
 
 from worker.arrays import FloatArray, IntArray
 from worker.descriptors.diffusion import distance_quantiles, joint_distances
-from worker.descriptors.signatures import heat_kernel_signatures, log_differences
+from worker.descriptors.landmarks import LADDER, log_heat_ladder
+from worker.descriptors.signatures import heat_kernel_signatures, log_differences, log_of
 from worker.geometry.sampling import cell_areas, farthest_points
 from worker.geometry.spectrum import Eigenpairs
 from worker.parameters import Parameters
@@ -23,6 +24,7 @@ class Intrinsic:
     orders: FloatArray  # (n, t), heat kernel signatures by which colour curves are ordered
     samples: IntArray  # (s,), vertices between which distances are taken
     shares: FloatArray  # (s,), area that each of them stands for
+    landmarks: IntArray  # (p,), the first of them: points by which shapes are registered
     signatures: Mapping[str, FloatArray]  # those that colours do not change
 
 
@@ -43,15 +45,21 @@ def describe_triangles(vertices: FloatArray, faces: IntArray, parameters: Parame
     spectrum = solve_joint(vertices, faces, np.zeros_like(vertices), 0.0, parameters)
     samples = farthest_points(vertices, parameters.distance_samples)
     shares = cell_areas(vertices, samples, areas)
+    landmarks = samples[: parameters.landmarks]  # the farthest points of fewer are the first of many
+    at_landmarks = heat_kernel_signatures(
+        spectrum.eigenvalues, spectrum.eigenfunctions[landmarks], np.array(LADDER)
+    )
     return Intrinsic(
         areas=areas,
         spectrum=spectrum,
         orders=signatures_at(spectrum, parameters.curve_times),
         samples=samples,
         shares=shares,
+        landmarks=landmarks,
         signatures={
             "areas": areas,
             "log-hks": log_differences(signatures_at(spectrum, parameters.fine_times)),
+            "landmark-ladder": log_heat_ladder(log_of(at_landmarks), parameters.landmarks),
             "diffusion-geometric": distribution([spectrum], samples, shares, parameters),
         },
     )

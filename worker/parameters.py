@@ -5,7 +5,7 @@ import json
 from dataclasses import asdict, dataclass
 from enum import StrEnum
 
-FORMAT = 1  # raised whenever the code changes a descriptor without changing a number below
+FORMAT = 2  # raised whenever the code changes a descriptor without changing a number below
 
 
 class Operator(StrEnum):
@@ -51,6 +51,7 @@ class Parameters:
     histogram_smoothing: float = 0.7  # σ in bins
     curve_times: tuple[float, ...] = (256.0, 1024.0, 4096.0)  # orders of the colour curves
     curve_bins: int = 16  # equal areas along each order
+    landmarks: int = 256  # points by which shapes are registered
 
     def fingerprint(self) -> str:
         """Return 16 hexadecimal digits that change with any number here."""

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 from typer.exceptions import TyperException
 
+from service.commands.evaluate import evaluate
 from service.commands.failures import STOPPED, say
 from service.commands.index import index
 from service.commands.search import search
@@ -22,7 +23,7 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,  # a defect keeps its plain traceback, for a report
 )
-for command in (serve, worker, index, search):
+for command in (serve, worker, index, search, evaluate):
     app.command()(command)
 app.command("learn-vocabulary")(learn_vocabulary)
 

@@ -53,7 +53,6 @@ TABLE: dict[type[Exception], tuple[HTTPStatus, str]] = {
     kept.NotFailed: (HTTPStatus.CONFLICT, "The shape did not fail"),
     kept.BadCursor: (HTTPStatus.UNPROCESSABLE_ENTITY, "The cursor is refused"),
     kept.UnknownMethod: (HTTPStatus.UNPROCESSABLE_ENTITY, "There is no such method"),
-    kept.MethodUnavailable: (HTTPStatus.UNPROCESSABLE_ENTITY, "The method is not available"),
     kept.BadWeights: (HTTPStatus.UNPROCESSABLE_ENTITY, "The weights are refused"),
     kept.BadBlock: (HTTPStatus.CONFLICT, "The shape's numbers do not fit"),
     kept.FingerprintMismatch: (HTTPStatus.CONFLICT, "The numbers belong to other parameters"),

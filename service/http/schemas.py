@@ -178,8 +178,8 @@ class MethodModel(BaseModel):
 
     name: str
     description: str
-    available: bool
     default: bool
+    refined: int = Field(description="How many of the first results are compared a second time, more closely")
     blocks: list[BlockModel]
 
     @classmethod
@@ -189,8 +189,8 @@ class MethodModel(BaseModel):
         return cls(
             name=method.name,
             description=method.description,
-            available=method.available,
             default=default,
+            refined=method.refined,
             blocks=blocks,
         )
 

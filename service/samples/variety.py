@@ -19,17 +19,24 @@ GROWN = {"plant": plant, "pebbles": pebbles}
 def random_creatures(count: int, seed: int) -> Iterator[Sample]:
     """Make shapes of varied proportions, poses and coats; the same for the same seed.
 
-    Of each eight, five are creatures, two are things or plants, and one is a box with pictures or a thing.
+    See `random_creature`.
     """
     for number in range(count):
-        generator = np.random.default_rng((seed, number))
-        place = number % 8
-        if place < 5:
-            yield _creature(number, generator)
-        elif place < 7 or number % 16 == 7:
-            yield _thing(number, generator)
-        else:
-            yield picture_box(f"{number:04d} box", generator)
+        yield random_creature(number, seed)
+
+
+def random_creature(number: int, seed: int) -> Sample:
+    """Make one of those shapes by itself.
+
+    Of each eight, five are creatures, two are things or plants, and one is a box with pictures or a thing.
+    """
+    generator = np.random.default_rng((seed, number))
+    place = number % 8
+    if place < 5:
+        return _creature(number, generator)
+    if place < 7 or number % 16 == 7:
+        return _thing(number, generator)
+    return picture_box(f"{number:04d} box", generator)
 
 
 def _creature(number: int, generator: np.random.Generator) -> Sample:

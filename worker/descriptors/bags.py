@@ -27,8 +27,10 @@ def bag_of_features(
     Returns
     -------
     (v,) array
-        Not negative, sums to 1.
+        Not negative, sums to 1; zeros where there is no point.
     """
+    if not len(signatures):
+        return np.zeros(len(words))
     shares = soft_assignment(signatures, words, softness)  # (n, v)
     return np.asarray(areas @ shares / areas.sum())
 

@@ -45,4 +45,9 @@ def log_differences(signatures: FloatArray) -> FloatArray:
     -------
     (n, t − 1) array
     """
-    return np.diff(np.log(np.maximum(signatures, np.finfo(float).tiny)), axis=1)
+    return np.diff(log_of(signatures), axis=1)
+
+
+def log_of(signatures: FloatArray) -> FloatArray:
+    """Return log h; where a point holds no heat, that of the smallest number."""
+    return np.asarray(np.log(np.maximum(signatures, np.finfo(float).tiny)))

@@ -41,10 +41,10 @@ def cells_of(
     weight = turn / np.sqrt(2.0)  # unit normals a quarter turn apart are √2 apart
     samples = np.hstack([points, weight * normals])  # (k, 6)
     vertices = np.hstack([centres, weight * centre_normals])  # (n, 6)
-    nearest = cKDTree(vertices).query(samples)[1]  # (k,)
+    nearest = np.asarray(cKDTree(vertices).query(samples)[1])  # (k,)
     counts = np.bincount(nearest, minlength=len(centres))
     empty = np.flatnonzero(counts == 0)
-    lent = cKDTree(samples).query(vertices[empty])[1] if len(empty) else empty
+    lent = np.asarray(cKDTree(samples).query(vertices[empty])[1]) if len(empty) else empty
     return Cells(nearest=nearest, counts=counts, empty=empty, lent=lent)
 
 

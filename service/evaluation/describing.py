@@ -1,0 +1,92 @@
+"""Describing the meshes of an evaluation: what shares triangles is resampled and solved once."""
+
+from collections.abc import Iterable, Iterator
+from concurrent.futures import Executor, as_completed
+from dataclasses import dataclass
+from pathlib import Path
+
+from index.vocabulary import Vocabulary
+from service.evaluation.cache import Cache, Described
+from service.evaluation.making import coloured, damaged
+from service.evaluation.protocol import Geometry, Recipe
+from service.evaluation.sources import read_source
+from service.quantisation import quantise
+from service.refining import QUERY_LADDER
+from worker.canonical import paint, stretch_canvas
+from worker.describe import describe_surface, in_single_precision
+from worker.errors import MeshError
+from worker.geometry.repair import repair
+from worker.intrinsic import describe_triangles
+from worker.parameters import Parameters
+from worker.reading.mesh import Mesh
+
+TOGETHER = 10  # meshes described by one process: few enough to share out evenly, enough to share triangles
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Setting:
+    """What every description of an evaluation has in common."""
+
+    folder: Path
+    cache: Path
+    parameters: Parameters
+    vocabulary: Vocabulary
+
+    def open_cache(self) -> Cache:
+        """Return the cache of these settings."""
+        return Cache(self.cache, self.folder, (self.parameters.fingerprint(), self.vocabulary.id))
+
+
+def missing(cache: Cache, recipes: Iterable[Recipe]) -> list[Recipe]:
+    """Return those that are not described yet, each once."""
+    return [recipe for recipe in dict.fromkeys(recipes) if recipe not in cache]
+
+
+def describe_all(pool: Executor, setting: Setting, recipes: Iterable[Recipe]) -> Iterator[int]:
+    """Describe meshes in the pool's processes, into the cache.
+
+    Yields
+    ------
+    int
+        How many more are done, as they are.
+    """
+    groups = list(_groups(recipes))
+    running = {pool.submit(describe_group, setting, *group): len(group[1]) for group in groups}
+    for done in as_completed(running):
+        done.result()
+        yield running[done]
+
+
+def describe_group(setting: Setting, geometry: Geometry, recipes: tuple[Recipe, ...]) -> None:
+    """Describe meshes that differ in colour alone."""
+    cache = setting.open_cache()
+    try:
+        mesh = damaged(read_source(setting.folder, geometry.source), geometry)
+        for recipe, described in _describe(mesh, recipes, setting):
+            cache.store(recipe, described)
+    except MeshError as error:
+        for recipe in recipes:
+            cache.store(recipe, Described(blocks={}, refused=str(error)))
+
+
+def _describe(
+    mesh: Mesh, recipes: tuple[Recipe, ...], setting: Setting
+) -> Iterator[tuple[Recipe, Described]]:
+    canvas = stretch_canvas(repair(mesh), setting.parameters)
+    intrinsic = describe_triangles(canvas.vertices, canvas.faces, setting.parameters)
+    for recipe in recipes:
+        surface = paint(coloured(mesh, recipe), canvas)
+        blocks, signatures = describe_surface(surface, setting.parameters, intrinsic)
+        single = in_single_precision(signatures)
+        quantised = quantise(single, setting.vocabulary)
+        kept = {**in_single_precision(blocks), **quantised, QUERY_LADDER: single[QUERY_LADDER]}
+        yield recipe, Described(blocks=kept)
+
+
+def _groups(recipes: Iterable[Recipe]) -> Iterator[tuple[Geometry, tuple[Recipe, ...]]]:
+    by_geometry: dict[Geometry, list[Recipe]] = {}
+    for recipe in recipes:
+        by_geometry.setdefault(recipe.geometry, []).append(recipe)
+    for geometry, sharing in by_geometry.items():
+        for start in range(0, len(sharing), TOGETHER):
+            yield geometry, tuple(sharing[start : start + TOGETHER])
