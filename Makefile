@@ -1,5 +1,5 @@
 # Every command sets up what it needs; `make setup` alone prepares .venv.
-.PHONY: setup run test check lock vocabulary retrieval picture
+.PHONY: setup run test check lock vocabulary picture
 VENV := .venv
 PYTHON := $(VENV)/bin/python
 STAMP := $(VENV)/.complete
@@ -31,10 +31,6 @@ lock:
 # Learns the vocabulary that ships with the project again, from shapes made by its own code.
 vocabulary: setup
 	$(PYTHON) -m benchmarks.default_vocabulary
-
-# Prints how well poses find their model: make retrieval DATA=folder
-retrieval: setup
-	$(PYTHON) -m benchmarks.retrieval $(DATA)
 
 # Draws the picture of the README.
 picture: setup

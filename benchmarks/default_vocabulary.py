@@ -9,7 +9,7 @@ from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
 
-from benchmarks.retrieval import describe_files
+from benchmarks.describing import describe_files
 from index.vocabulary import Vocabulary, learn_vocabulary
 from service.samples import random_creatures
 from worker.arrays import SingleArray

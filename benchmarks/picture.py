@@ -5,13 +5,15 @@ from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
 
-import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from benchmarks.retrieval import Blocks, describe_files, distances
+from benchmarks.describing import describe_files
 from index.methods import DEFAULT_METHOD, METHODS
 from index.vocabulary import default_vocabulary
+from service.evaluation.cache import Described
+from service.evaluation.measuring import first_stage
 from service.quantisation import quantise
+from service.refining import LANDMARKS, QUERY_LADDER, QueryLandmarks, refine
 from service.samples import make_samples
 from worker.describe import Description
 
@@ -28,33 +30,53 @@ def main() -> None:
     with ProcessPoolExecutor(2, mp_context=get_context("forkserver")) as pool:
         described = list(pool.map(describe_files, [sample.files for sample in samples]))
     names = [sample.name for sample in samples]
-    blocks = [_blocks(found) for found in described]
     tiles = [Image.open(io.BytesIO(found.thumbnail)).resize((TILE, TILE)) for found in described]
     sheet = Image.new("RGB", ((ANSWERS + 1) * TILE + 2 * GAP, len(QUERIES) * (TILE + CAPTION) + GAP), PAPER)
     for row, query in enumerate(QUERIES):
-        _draw_row(sheet, row, names.index(query), names, blocks, tiles)
+        answers = _ranked(names.index(query), described)
+        _draw_row(sheet, row, names.index(query), answers, names, tiles)
     TARGET.parent.mkdir(exist_ok=True)
     sheet.quantize(256).save(TARGET, optimize=True)
     print(f"{TARGET.name}: {TARGET.stat().st_size:,} bytes")
 
 
-def _blocks(found: Description) -> Blocks:
-    return {**found.blocks, **quantise(found.signatures, default_vocabulary())}
+def _ranked(query: int, described: list[Description]) -> list[tuple[int, float]]:
+    """Rank all but the query by the default method; which, and how far."""
+    method, vocabulary = METHODS[DEFAULT_METHOD], default_vocabulary()
+    shapes = [
+        Described(blocks={**found.blocks, **quantise(found.signatures, vocabulary)}) for found in described
+    ]
+    distances = first_stage(method, [shapes[query]], shapes)[0]
+    found = sorted(
+        ((f"{k:04d}", distance) for k, distance in enumerate(distances.tolist()) if k != query),
+        key=lambda result: (result[1], result[0]),
+    )
+    landmarks = QueryLandmarks(
+        packed=described[query].blocks[LANDMARKS], ladder=described[query].signatures[QUERY_LADDER]
+    )
+    stored = {f"{k:04d}": shape.blocks[LANDMARKS] for k, shape in enumerate(shapes)}
+    ranked = refine(
+        found, landmarks, {name: stored[name] for name, _ in found[: method.refined]}, method.refined
+    )
+    return [(int(name), distance) for name, distance in ranked[:ANSWERS]]
 
 
 def _draw_row(
-    sheet: Image.Image, row: int, query: int, names: list[str], blocks: list[Blocks], tiles: list[Image.Image]
+    sheet: Image.Image,
+    row: int,
+    query: int,
+    answers: list[tuple[int, float]],
+    names: list[str],
+    tiles: list[Image.Image],
 ) -> None:
     """Draw a query on the left, a rule, and its answers by rank."""
-    found = distances(METHODS[DEFAULT_METHOD], blocks[query], blocks)
-    found[query] = np.inf
     top = GAP // 2 + row * (TILE + CAPTION)
     draw = ImageDraw.Draw(sheet)
     draw.line([(TILE + GAP, top), (TILE + GAP, top + TILE + CAPTION // 2)], fill=FAINT)
     _draw_tile(sheet, GAP // 2, top, tiles[query], names[query], "query")
-    for rank, k in enumerate(np.argsort(found, kind="stable")[:ANSWERS], 1):
+    for rank, (k, distance) in enumerate(answers, 1):
         left = int(GAP * 1.5) + rank * TILE
-        _draw_tile(sheet, left, top, tiles[k], names[k], f"{rank}.  {found[k]:.3f}")
+        _draw_tile(sheet, left, top, tiles[k], names[k], f"{rank}.  {distance:.3f}")
 
 
 def _draw_tile(sheet: Image.Image, left: int, top: int, tile: Image.Image, name: str, note: str) -> None:
