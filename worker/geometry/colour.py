@@ -55,6 +55,8 @@ def look_up_colours(
         sRGB in 0…1.
     """
     colours: FloatArray = np.einsum("kc,kcd->kd", barycentrics, mesh.corner_colours[face_indices])  # (k, 3)
+    if not mesh.textures:
+        return colours
     uvs = np.einsum("kc,kcd->kd", barycentrics, mesh.corner_uvs[face_indices])  # (k, 2)
     textures = mesh.face_textures[face_indices]  # (k,)
     for number, texture in enumerate(mesh.textures):

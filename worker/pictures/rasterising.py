@@ -7,7 +7,7 @@ import numpy as np
 
 from worker.arrays import FloatArray, IntArray
 
-CHUNK = 400_000  # pairs of triangle and pixel at a time; bounds the memory to some 60 MB
+CHUNK = 50_000  # pairs of triangle and pixel at a time: few enough for a processor's cache
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -40,16 +40,18 @@ def rasterise(pixels: FloatArray, depths: FloatArray, faces: IntArray, size: int
     nearest = np.full(size * size, np.inf)
     owner = np.full(size * size, -1)
     shares = np.zeros((size * size, 3))
-    for numbers, places in _pairs(pixels, faces, size):
-        centres = 0.5 + np.stack([places % size, places // size], axis=1).astype(np.float64)
-        weights = _barycentrics(pixels[faces[numbers]], centres)  # (p, 3)
-        depth = np.einsum("pc,pc->p", weights, depths[faces[numbers]])
-        inside = (weights[:, 0] >= 0) & (weights[:, 1] >= 0) & (weights[:, 2] >= 0)
-        seen = inside & (depth <= nearest[places])
-        numbers, places, weights, depth = numbers[seen], places[seen], weights[seen], depth[seen]
+    frames = _frames(pixels, faces)
+    depths_of = [depths[column] for column in faces.T]
+    for numbers, columns, rows in _pairs(pixels, faces, size):
+        inside, weights = _barycentrics(frames, numbers, columns + 0.5, rows + 0.5)
+        numbers, places = numbers[inside], (rows * size + columns)[inside]
+        first, second, third = (of[numbers] * weight for of, weight in zip(depths_of, weights, strict=True))
+        depth = first + second + third
         np.minimum.at(nearest, places, depth)
-        first = depth == nearest[places]
-        owner[places[first]], shares[places[first]] = numbers[first], weights[first]
+        seen = np.flatnonzero(depth == nearest[places])
+        owner[places[seen]] = numbers[seen]
+        for column, weight in enumerate(weights):
+            shares[places[seen], column] = weight[seen]
     covered = np.flatnonzero(owner >= 0)
     return Fragments(places=covered, faces=owner[covered], barycentrics=shares[covered])
 
@@ -68,31 +70,47 @@ def _boxes(pixels: FloatArray, faces: IntArray, size: int) -> tuple[IntArray, In
     return first, last, np.maximum(last - first + 1, 0)
 
 
-def _pairs(pixels: FloatArray, faces: IntArray, size: int) -> Iterator[tuple[IntArray, IntArray]]:
-    """Yield triangles and the pixels of their bounding boxes, at most about a chunk of pairs at once."""
+def _pairs(pixels: FloatArray, faces: IntArray, size: int) -> Iterator[tuple[IntArray, IntArray, IntArray]]:
+    """Yield triangles, columns and rows: the pixels of bounding boxes, at most about a chunk at once."""
     first, _, counts = _boxes(pixels, faces, size)
-    totals = counts.prod(axis=1)
-    ends = np.cumsum(totals)
+    ends = np.cumsum(counts.prod(axis=1))
     start = 0
-    while start < len(totals):
-        done = ends[start] - totals[start]
+    while start < len(ends):
+        done = ends[start - 1] if start else 0
         stop = max(int(np.searchsorted(ends, done + CHUNK)), start + 1)
-        numbers = np.repeat(np.arange(start, stop), totals[start:stop])
-        steps = np.arange(len(numbers)) + done - (ends - totals)[numbers]
-        columns, rows = steps % counts[numbers, 0], steps // counts[numbers, 0]
-        yield numbers, (first[numbers, 1] + rows) * size + first[numbers, 0] + columns
+        boxes, lines = _steps(counts[start:stop, 1])  # each box is cut into lines of pixels
+        boxes += start
+        of_pixels, steps = _steps(counts[boxes, 0])
+        numbers = boxes[of_pixels]
+        yield numbers, first[numbers, 0] + steps, (first[boxes, 1] + lines)[of_pixels]
         start = stop
 
 
-def _barycentrics(corners: FloatArray, points: FloatArray) -> FloatArray:
-    """Return barycentric coordinates (p, 3) of points (p, 2); negative outside and where there is no area."""
-    first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    away = points - corners[:, 0]
-    area = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
-    flat = np.abs(area) < 1e-12
-    safe = np.where(flat, 1.0, area)
-    to_second = (away[:, 0] * second[:, 1] - away[:, 1] * second[:, 0]) / safe
-    to_third = (first[:, 0] * away[:, 1] - first[:, 1] * away[:, 0]) / safe
-    weights = np.stack([1 - to_second - to_third, to_second, to_third], axis=1)
-    weights[flat] = -1.0
-    return np.asarray(weights)
+def _steps(counts: IntArray) -> tuple[IntArray, IntArray]:
+    """Count from 0 for each entry; return the entry and the count, (sum of counts,) each."""
+    owners = np.repeat(np.arange(len(counts)), counts)
+    starts = np.cumsum(counts) - counts
+    return owners, np.arange(len(owners)) - starts[owners]
+
+
+def _frames(pixels: FloatArray, faces: IntArray) -> list[FloatArray]:
+    """Return what barycentric coordinates need: first corner, the sides from it, area; (m,) each."""
+    a, b, c = (pixels[column] for column in faces.T)  # each (m, 2)
+    (second_x, second_y), (third_x, third_y) = (b - a).T, (c - a).T
+    area = second_x * third_y - second_y * third_x  # twice that, signed
+    area[np.abs(area) < 1e-12] = np.nan  # no point is inside
+    columns = (a[:, 0], a[:, 1], second_x, second_y, third_x, third_y, area)
+    return [np.ascontiguousarray(column) for column in columns]
+
+
+def _barycentrics(
+    frames: list[FloatArray], numbers: IntArray, x: FloatArray, y: FloatArray
+) -> tuple[IntArray, list[FloatArray]]:
+    """Return which of the points (p,) lie inside their triangles, and their barycentric coordinates."""
+    left, top, second_x, second_y, third_x, third_y, area = (column.take(numbers) for column in frames)
+    x, y = x - left, y - top
+    to_second = (x * third_y - y * third_x) / area
+    to_third = (second_x * y - second_y * x) / area
+    to_first = 1.0 - to_second - to_third
+    inside = np.flatnonzero((to_first >= 0) & (to_second >= 0) & (to_third >= 0))
+    return inside, [weight.take(inside) for weight in (to_first, to_second, to_third)]

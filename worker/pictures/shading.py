@@ -3,6 +3,7 @@
 import numpy as np
 
 from worker.arrays import FloatArray, IntArray
+from worker.geometry.areas import face_vectors, unit, vertex_normals
 
 CREASE = 0.75  # cosine of the turn beyond which an edge is shown as sharp
 LAMP = np.array([-0.45, 0.65, 0.85])  # direction to the light: right, up, towards the camera
@@ -26,14 +27,14 @@ def corner_normals(vertices: FloatArray, faces: IntArray, chosen: IntArray) -> F
     (k, 3, 3) array
         The area-weighted mean around the vertex, or the triangle's own normal beyond a crease.
     """
-    a, b, c = (vertices[column] for column in faces.T)
-    across = np.cross(b - a, c - a)  # (m, 3)
-    sums = np.zeros(vertices.shape)
-    for k in range(3):
-        sums[:, k] = np.bincount(faces.ravel(), across[:, k].repeat(3), len(vertices))
-    own, smooth = _unit(across[chosen])[:, None], _unit(sums)[faces[chosen]]  # (k, 1, 3), (k, 3, 3)
-    sharp = (own * smooth).sum(-1, keepdims=True) < CREASE
-    return np.where(sharp, own, smooth)
+    vectors = face_vectors(vertices, faces)  # (m, 3)
+    smooth = vertex_normals(vertices, faces)
+    named = np.zeros(len(faces), dtype=np.bool_)
+    named[chosen] = True
+    distinct = np.flatnonzero(named)  # a face is seen at many pixels
+    own, around = unit(vectors[distinct])[:, None], smooth[faces[distinct]]  # (d, 1, 3), (d, 3, 3)
+    sharp = (own * around).sum(-1, keepdims=True) < CREASE
+    return np.where(sharp, own, around)[(np.cumsum(named) - 1)[chosen]]
 
 
 def shade(colours: FloatArray, normals: FloatArray, axes: FloatArray) -> FloatArray:
@@ -53,13 +54,10 @@ def shade(colours: FloatArray, normals: FloatArray, axes: FloatArray) -> FloatAr
     (k, 3) array
         sRGB in 0…1.
     """
-    seen = _unit(normals) @ axes.T  # (k, 3)
-    seen = np.where(seen[:, 2:] < 0, -seen, seen)
-    lit = np.clip((seen @ (LAMP / np.linalg.norm(LAMP)) + WRAP) / (1 + WRAP), 0.0, 1.0)
-    brightness = AMBIENT + SKY * seen[:, 1] + (1.04 - AMBIENT) * lit
+    right, up, towards = (unit(normals) @ axes.T).T  # each (k,)
+    sides = np.where(towards < 0, -1.0, 1.0)
+    lamp = LAMP / np.linalg.norm(LAMP)
+    facing = sides * (right * lamp[0] + up * lamp[1] + towards * lamp[2])
+    lit = np.clip((facing + WRAP) / (1 + WRAP), 0.0, 1.0)
+    brightness = AMBIENT + SKY * sides * up + (1.04 - AMBIENT) * lit
     return np.asarray(np.clip(colours * brightness[:, None], 0.0, 1.0))
-
-
-def _unit(vectors: FloatArray) -> FloatArray:
-    lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    return np.asarray(vectors / np.maximum(lengths, np.finfo(np.float64).tiny))
