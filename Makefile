@@ -1,5 +1,5 @@
 # Every command sets up what it needs; `make setup` alone prepares .venv.
-.PHONY: setup run test check lock vocabulary picture
+.PHONY: setup run test check lock vocabulary picture evaluation
 VENV := .venv
 PYTHON := $(VENV)/bin/python
 STAMP := $(VENV)/.complete
@@ -35,3 +35,8 @@ vocabulary: setup
 # Draws the picture of the README.
 picture: setup
 	$(PYTHON) -m benchmarks.picture
+
+# Measures every method on a folder of shapes and poses, and fills the tables of docs/evaluation.md: make evaluation DATA=folder
+evaluation: setup
+	$(VENV)/bin/faience evaluate $(DATA) --hard --ablation
+	$(PYTHON) -m benchmarks.evaluation_page faience-evaluation/results.json
