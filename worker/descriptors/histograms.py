@@ -44,12 +44,12 @@ def _counts(lab: FloatArray, n_bins: int) -> FloatArray:
     places = (lab - LOWER) / (UPPER - LOWER) * n_bins - 0.5  # (k, 3), whole at the middle of a bin
     places = np.clip(places, 0.0, n_bins - 1.0)
     lowest = np.minimum(places.astype(np.int64), n_bins - 2)
-    upper_shares = places - lowest
+    shares = np.stack([1.0 - (places - lowest), places - lowest])  # (2, k, 3): of the lower bin, of the upper
+    first = lowest @ [n_bins**2, n_bins, 1]
     counts = np.zeros(n_bins**3)
-    for corner in np.ndindex(2, 2, 2):
-        shares = np.where(np.array(corner) == 1, upper_shares, 1.0 - upper_shares).prod(axis=1)
-        bins = np.ravel_multi_index(tuple((lowest + corner).T), (n_bins,) * 3)
-        counts += np.bincount(bins, shares, n_bins**3)
+    for i, j, k in np.ndindex(2, 2, 2):
+        weights = shares[i, :, 0] * shares[j, :, 1] * shares[k, :, 2]
+        counts += np.bincount(first + (i * n_bins**2 + j * n_bins + k), weights, n_bins**3)
     return counts.reshape((n_bins,) * 3)
 
 

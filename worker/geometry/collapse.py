@@ -97,7 +97,7 @@ def _sums(owners: IntArray, planes: FloatArray, n_vertices: int) -> FloatArray:
 
 def _choose(surface: _Surface, edges: Edges, most: int, longest: float) -> IntArray:
     """Pick the shortest edges that are alone in their neighbourhood and may collapse."""
-    worst = surface.penalties[edges.ends].max(axis=1)
+    worst = np.maximum(*surface.penalties[edges.ends.T])
     lengths = lengths_of(surface.vertices, edges)
     # Where lengths are equal or rise along the surface, few edges would be shorter than all around them.
     shuffle = np.random.default_rng(len(lengths)).uniform(1.0, SHUFFLE, len(lengths))
@@ -144,7 +144,8 @@ def _keeps_topology(surface: _Surface, edges: Edges, chosen: IntArray) -> BoolAr
     threefold = np.bincount(ends.ravel(), minlength=n) == 3
     tetrahedron = np.bincount(owners[threefold[common]], minlength=len(chosen)) > 1
     alone = np.zeros(len(ends), dtype=bool)
-    alone[edges.of_faces[(edges.n_faces[edges.of_faces] == 1).all(axis=1)]] = True
+    open_sides = (edges.n_faces == 1)[edges.of_faces.T]  # (3, m)
+    alone[edges.of_faces[open_sides[0] & open_sides[1] & open_sides[2]]] = True
     boundary = np.zeros(n, dtype=bool)
     boundary[ends[edges.n_faces == 1]] = True
     pinches = boundary[ends[chosen]].all(axis=1) & (edges.n_faces[chosen] > 1)
@@ -187,8 +188,8 @@ def _collapse(surface: _Surface, pairs: IntArray) -> None:
     new = np.arange(len(surface.vertices))
     new[gone] = kept
     faces = new[surface.faces]
-    whole = (faces != faces[:, [2, 0, 1]]).all(axis=1)
-    _compact(surface, faces[whole])
+    a, b, c = faces.T
+    _compact(surface, faces[(a != b) & (b != c) & (c != a)])
 
 
 def _positions(surface: _Surface, pairs: IntArray) -> FloatArray:
@@ -207,7 +208,8 @@ def _turns_over(surface: _Surface, pairs: IntArray, targets: FloatArray) -> Bool
     owners = np.full(len(surface.vertices), -1)
     owners[pairs] = np.arange(len(pairs))[:, None]
     corner_owners = owners[surface.faces]  # (m, 3)
-    moved = np.count_nonzero(corner_owners >= 0, axis=1) == 1
+    a, b, c = (corner_owners >= 0).T
+    moved = np.flatnonzero((a ^ b ^ c) & ~(a & b & c))  # those with one corner
     faces, face_owners = surface.faces[moved], corner_owners[moved].max(axis=1)
     before = face_vectors(surface.vertices, faces)
     vertices = surface.vertices.copy()

@@ -26,11 +26,13 @@ def farthest_points(points: FloatArray, n_samples: int) -> IntArray:
     picked = np.empty(n_samples, dtype=np.int64)
     picked[0] = np.argmax(np.sum((points - points.mean(axis=0)) ** 2, axis=1))
     columns = np.ascontiguousarray(points.T)  # (d, n)
-    nearest = np.full(len(points), np.inf)
+    nearest, squares, rest = np.full(len(points), np.inf), np.empty(len(points)), np.empty_like(columns)
     for k in range(1, n_samples):
-        squares = np.sum((columns - columns[:, picked[k - 1], None]) ** 2, axis=0)
+        np.subtract(columns, columns[:, picked[k - 1], None], out=rest)
+        np.multiply(rest, rest, out=rest)
+        np.sum(rest, axis=0, out=squares)
         np.minimum(nearest, squares, out=nearest)
-        picked[k] = np.argmax(nearest)
+        picked[k] = nearest.argmax()
     return picked
 
 

@@ -43,7 +43,7 @@ def rasterise(pixels: FloatArray, depths: FloatArray, faces: IntArray, size: int
     frames = _frames(pixels, faces)
     depths_of = [depths[column] for column in faces.T]
     for numbers, columns, rows in _pairs(pixels, faces, size):
-        inside, weights = _barycentrics(frames, numbers, columns + 0.5, rows + 0.5)
+        inside, weights = _barycentrics(frames, numbers, columns, rows)
         numbers, places = numbers[inside], (rows * size + columns)[inside]
         first, second, third = (of[numbers] * weight for of, weight in zip(depths_of, weights, strict=True))
         depth = first + second + third
@@ -104,11 +104,11 @@ def _frames(pixels: FloatArray, faces: IntArray) -> list[FloatArray]:
 
 
 def _barycentrics(
-    frames: list[FloatArray], numbers: IntArray, x: FloatArray, y: FloatArray
+    frames: list[FloatArray], numbers: IntArray, columns: IntArray, rows: IntArray
 ) -> tuple[IntArray, list[FloatArray]]:
-    """Return which of the points (p,) lie inside their triangles, and their barycentric coordinates."""
+    """Return which pixels (p,) have their middle inside their triangle, and its barycentrics there."""
     left, top, second_x, second_y, third_x, third_y, area = (column.take(numbers) for column in frames)
-    x, y = x - left, y - top
+    x, y = columns + 0.5 - left, rows + 0.5 - top
     to_second = (x * third_y - y * third_x) / area
     to_third = (second_x * y - second_y * x) / area
     to_first = 1.0 - to_second - to_third
