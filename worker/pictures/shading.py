@@ -34,8 +34,8 @@ def corner_normals(vertices: FloatArray, faces: IntArray, chosen: IntArray) -> F
     distinct = np.flatnonzero(named)  # a face is seen at many pixels
     own, around = unit(vectors[distinct])[:, None], smooth[faces[distinct]]  # (d, 1, 3), (d, 3, 3)
     sharp = (own * around).sum(-1, keepdims=True) < CREASE
-    normals: FloatArray = np.where(sharp, own, around)
-    return normals[(np.cumsum(named) - 1)[chosen]]
+    normals = np.where(sharp, own, around)
+    return np.asarray(normals[(np.cumsum(named) - 1)[chosen]])
 
 
 def shade(colours: FloatArray, normals: FloatArray, axes: FloatArray) -> FloatArray:
