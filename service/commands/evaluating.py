@@ -15,7 +15,7 @@ from index.vocabulary import default_vocabulary
 from service.commands.failures import STOPPED, CommandFailed
 from service.commands.opening import pool_for
 from service.commands.progress import progress_bar
-from service.evaluation.ablation import ablations
+from service.evaluation.ablation import ablations, whole_methods
 from service.evaluation.as_json import as_document
 from service.evaluation.describing import Setting, describe_all, missing
 from service.evaluation.folder import BadFolder, read_folder
@@ -29,6 +29,7 @@ from service.evaluation.tables import outcome_tables
 from service.settings import Settings
 from worker.parameters import Parameters
 
+PRELOAD = ("service.evaluation.describing", "service.evaluation.registering")
 REPORT, RESULTS, CACHE = "report.html", "results.json", "cache"
 
 
@@ -64,7 +65,7 @@ def evaluate_folder(folder: Path, out: Path, plan: Plan, workers: int | None, as
         setting = Setting(
             folder=folder, cache=out / CACHE, parameters=Parameters(), vocabulary=default_vocabulary()
         )
-        with pool_for(settings) as pool:
+        with pool_for(settings, PRELOAD) as pool:
             _describe(pool, setting, tests)
             outcomes = list(_measure(pool, setting, tests, methods))
     except (BadFolder, GalleryRefused) as error:
@@ -108,7 +109,7 @@ def _tell(
 ) -> None:
     document = json.dumps(as_document(outcomes, known), indent=1)
     (out / RESULTS).write_text(document + "\n", encoding="utf-8")
-    write_report(out / REPORT, outcomes, pictures, known)
+    write_report(out / REPORT, [whole_methods(outcome) for outcome in outcomes], pictures, known)
     if as_json:
         print(document, flush=True)  # noqa: T201 - this is the command's output
         return

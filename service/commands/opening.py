@@ -2,7 +2,7 @@
 
 import contextlib
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -39,9 +39,9 @@ def opened(settings: Settings, *, make: bool = False) -> Iterator[Library]:
 
 
 @contextlib.contextmanager
-def pool_for(settings: Settings) -> Iterator[ProcessPerJob]:
+def pool_for(settings: Settings, preload: Sequence[str] = ()) -> Iterator[ProcessPerJob]:
     """Start the processes that describe meshes; kill those that still run at the end."""
-    pool = ProcessPerJob(slots=max(settings.workers, 1), limits=child_limits(settings))
+    pool = ProcessPerJob(slots=max(settings.workers, 1), limits=child_limits(settings), preload=preload)
     pool.warm()
     try:
         yield pool

@@ -2,7 +2,8 @@
 
 from dataclasses import replace
 
-from index.methods import Method
+from index.methods import METHODS, Method
+from service.evaluation.outcome import Outcome
 
 
 def ablations(method: Method) -> list[Method]:
@@ -16,3 +17,9 @@ def ablations(method: Method) -> list[Method]:
             for version in ([method, bare] if method.refined else [method])
         ]
     return found
+
+
+def whole_methods(outcome: Outcome) -> Outcome:
+    """Return an outcome of the table's own methods alone, where there is one: pages show no more."""
+    whole = {name: distances for name, distances in outcome.distances.items() if name in METHODS}
+    return replace(outcome, distances=whole or outcome.distances)

@@ -10,7 +10,7 @@ import multiprocessing.forkserver
 import signal
 import sys
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkServerProcess
@@ -47,11 +47,13 @@ class ProcessPerJob(Executor):
         Jobs at the same time.
     limits : ChildLimits
         What each may use.
+    preload : sequence of str
+        Modules that children find imported, beside those of `service.jobs.preload`.
     """
 
-    def __init__(self, *, slots: int, limits: ChildLimits) -> None:
+    def __init__(self, *, slots: int, limits: ChildLimits, preload: Sequence[str] = ()) -> None:
         self._context = multiprocessing.get_context("forkserver")
-        self._context.set_forkserver_preload(["service.jobs.preload"])
+        self._context.set_forkserver_preload(["service.jobs.preload", *preload])
         self._limits = limits
         self._threads = ThreadPoolExecutor(max_workers=slots, thread_name_prefix="job")
         self._children: set[ForkServerProcess] = set()
