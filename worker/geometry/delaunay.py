@@ -7,6 +7,7 @@ A half-edge has the number 3 f + i: it runs from corner i of face f to corner i 
 import numpy as np
 
 from worker.arrays import BoolArray, FloatArray, IntArray
+from worker.geometry.edges import stable_order
 
 ROUNDS = 200  # of flips; the mesh is as good as Delaunay long before
 SLACK = 1e-12  # an edge is flipped only where its two cotangents sum to less than this below zero
@@ -42,10 +43,10 @@ def intrinsic_delaunay(
 
 def _twins(faces: IntArray) -> IntArray:
     """Pair the half-edges of edges with exactly two faces, running opposite ways; −1 elsewhere."""
-    tails, heads = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
+    tails, heads = faces.ravel(), faces[:, [1, 2, 0]].ravel()
     n = int(faces.max(initial=0)) + 1
     keys = np.minimum(tails, heads) * n + np.maximum(tails, heads)
-    order = np.argsort(keys, kind="stable")
+    order = stable_order(keys)
     starts = np.flatnonzero(np.r_[True, np.diff(keys[order]) != 0])
     counts = np.diff(np.r_[starts, len(order)])
     first, second = order[starts[counts == 2]], order[starts[counts == 2] + 1]
@@ -67,13 +68,18 @@ def _cosine_law(a: FloatArray, b: FloatArray, c: FloatArray) -> tuple[FloatArray
 
 def _not_delaunay(sides: FloatArray, twins: IntArray) -> IntArray:
     """Return one half of each edge whose opposite angles sum to more than π, the worst first."""
-    half = np.flatnonzero((twins > np.arange(len(twins))) & (twins // 3 != np.arange(len(twins)) // 3))
-    cosine, sine = _cosine_law(sides[half], sides[_next(half)], sides[_next(_next(half))])
+    a, b, c = sides.reshape(-1, 3).T  # (m,) each
+    cosine, sine = (
+        np.stack(of_corners, axis=1).ravel()
+        for of_corners in zip(_cosine_law(a, b, c), _cosine_law(b, c, a), _cosine_law(c, a, b), strict=True)
+    )  # opposite to each half-edge
+    number = np.arange(len(twins))
+    half = np.flatnonzero((twins > number) & (twins // 3 != number // 3))
     other = twins[half]
-    cosine_2, sine_2 = _cosine_law(sides[other], sides[_next(other)], sides[_next(_next(other))])
-    sine_of_sum = sine * cosine_2 + cosine * sine_2  # negative where the sum is over π
-    worst = np.argsort(sine_of_sum, kind="stable")
-    return np.asarray(half[worst[sine_of_sum[worst] < -SLACK]])
+    # The sine of the sum is negative where the sum is over π.
+    sine_of_sum = sine[half] * cosine[other] + cosine[half] * sine[other]
+    worst = np.flatnonzero(sine_of_sum < -SLACK)
+    return np.asarray(half[worst[np.argsort(sine_of_sum[worst], kind="stable")]])
 
 
 def _independent(half: IntArray, twins: IntArray) -> IntArray:
