@@ -6,7 +6,7 @@ from typing import TypeVar
 
 from worker.arrays import SingleArray
 from worker.descriptors.landmarks import LADDER, unpack
-from worker.descriptors.registration import register
+from worker.descriptors.registration import query_of, register
 
 LANDMARKS = "landmarks"  # block of every shape
 QUERY_LADDER = "landmark-ladder"  # signature of the query
@@ -54,8 +54,5 @@ def refine(found: Ranked, query: QueryLandmarks, stored: Mapping[str, SingleArra
 
 def additions_to(query: QueryLandmarks, stored: Mapping[Key, SingleArray]) -> dict[Key, float]:
     """Return what registration adds to the distance of each shape."""
-    own = unpack(query.packed)
-    ladder = query.ladder.reshape(-1, len(LADDER))
-    return {
-        key: register(ladder, own.lab, own.shares, unpack(block)).distance() for key, block in stored.items()
-    }
+    ready = query_of(query.ladder.reshape(-1, len(LADDER)), query.packed)
+    return {key: register(ready, unpack(block)).distance() for key, block in stored.items()}

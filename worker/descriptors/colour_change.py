@@ -3,8 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
-from worker.arrays import FloatArray, SingleArray
+from worker.arrays import SingleArray
 from worker.geometry.gamut import clip_to_gamut
 
 CONTRASTS = (0.15, 2.2)  # range of the factor on L
@@ -13,6 +14,8 @@ ROUNDS = 5  # of reweighting
 FLOOR = 2.0  # Lab units; residuals below count alike
 TRUST = 4.0  # squared Lab units; how firmly a factor stays at 1 where colours say nothing
 CLIPPED = np.float32(0.1)  # weight of a colour that sRGB cannot hold
+
+Channel = npt.NDArray[np.complexfloating]  # L, or a + ib: one formula fits both
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,13 +33,14 @@ class ColourChange:
         return float(steps + abs(self.offset) / 40.0 + (abs(self.tint[0]) + abs(self.tint[1])) / 80.0)
 
     def apply(self, lab: SingleArray) -> SingleArray:
-        """Change colours (n, 3), as a file would hold them."""
+        """Change colours (3, n), as a file would hold them."""
         return clip_to_gamut(self.unclipped(lab))[0]
 
     def unclipped(self, lab: SingleArray) -> SingleArray:
-        """Change colours (n, 3), whether sRGB can hold them or not."""
-        scales = np.array([self.contrast, self.saturation, self.saturation], np.float32)
-        return np.asarray(lab * scales + np.array([self.offset, *self.tint], np.float32))
+        """Change colours (3, n), whether sRGB can hold them or not."""
+        factors = np.array([self.contrast, self.saturation, self.saturation], np.float32)
+        shifts = np.array([self.offset, *self.tint], np.float32)
+        return np.asarray(lab * factors[:, None] + shifts[:, None])
 
 
 def fit_change(before: SingleArray, after: SingleArray, weights: SingleArray) -> ColourChange:
@@ -47,8 +51,8 @@ def fit_change(before: SingleArray, after: SingleArray, weights: SingleArray) ->
 
     Parameters
     ----------
-    before, after : (n, 3) arrays
-        CIE Lab, row by row.
+    before, after : (3, n) arrays
+        CIE Lab, column by column.
     weights : (n,) array
         Not negative.
 
@@ -56,39 +60,46 @@ def fit_change(before: SingleArray, after: SingleArray, weights: SingleArray) ->
     -------
     ColourChange
     """
-    change, in_light, in_chroma = ColourChange(), weights, weights
-    for _ in range(ROUNDS):
-        change = _least_squares(before, after, in_light, in_chroma)
-        found = change.unclipped(before)
-        clipped, outside = clip_to_gamut(found)
-        trusted = weights * np.where(outside, CLIPPED, np.float32(1.0))
-        residuals = clipped - after
-        in_light = trusted / (np.abs(residuals[:, 0]) + FLOOR)
-        in_chroma = trusted / (np.sqrt((residuals[:, 1:] ** 2).sum(axis=1)) + FLOOR)
+    light = _products(before[0], after[0])
+    chroma = _products(before[1] + 1j * before[2], after[1] + 1j * after[2])
+    change = _least_squares(light, chroma, weights, weights)
+    for _ in range(ROUNDS - 1):
+        in_light, in_chroma = _reweighted(change, before, after, weights)
+        change = _least_squares(light, chroma, in_light, in_chroma)
     return change
 
 
+def _reweighted(
+    change: ColourChange, before: SingleArray, after: SingleArray, weights: SingleArray
+) -> tuple[SingleArray, SingleArray]:
+    """Return the weights (n,) by which squared residuals, in L and in (a, b), count as absolute ones."""
+    clipped, outside = clip_to_gamut(change.unclipped(before))
+    trusted = np.where(outside, CLIPPED * weights, weights)
+    light, a, b = clipped - after
+    return trusted / (np.abs(light) + FLOOR), trusted / (np.hypot(a, b) + FLOOR)
+
+
+def _products(before: Channel, after: Channel) -> Channel:
+    """Return the rows (5, n) whose weighted sums are all that `_affine` needs, in double precision."""
+    x, y = before.astype(np.complex128), after.astype(np.complex128)
+    return np.stack([np.ones_like(x), x, y, x.conj() * y, x.conj() * x])
+
+
 def _least_squares(
-    before: SingleArray, after: SingleArray, in_light: SingleArray, in_chroma: SingleArray
+    light: Channel, chroma: Channel, in_light: SingleArray, in_chroma: SingleArray
 ) -> ColourChange:
-    contrast, offset = _affine(before[:, :1], after[:, :1], in_light, CONTRASTS)
-    saturation, tint = _affine(before[:, 1:], after[:, 1:], in_chroma, SATURATIONS)
+    """Fit products of L and of a + ib, each by weights (n,) of its own."""
+    contrast, offset = _affine(light @ in_light, CONTRASTS)
+    saturation, tint = _affine(chroma @ in_chroma, SATURATIONS)
     return ColourChange(
-        contrast=contrast,
-        offset=float(offset[0]),
-        saturation=saturation,
-        tint=(float(tint[0]), float(tint[1])),
+        contrast=contrast, offset=offset.real, saturation=saturation, tint=(tint.real, tint.imag)
     )
 
 
-def _affine(
-    before: SingleArray, after: SingleArray, weights: SingleArray, limits: tuple[float, float]
-) -> tuple[float, FloatArray]:
-    """Fit after = factor · before + shift, with one factor for all channels."""
-    total = float(weights.sum()) or 1.0
-    mean, target = weights @ before / total, weights @ after / total
-    centred = before - mean
-    overlap = float(weights @ (centred * (after - target)).sum(axis=1)) + TRUST * total
-    power = float(weights @ (centred**2).sum(axis=1)) + TRUST * total
-    factor = min(max(overlap / power, limits[0]), limits[1])
-    return factor, np.asarray(target - factor * mean, np.float64)
+def _affine(sums: Channel, limits: tuple[float, float]) -> tuple[float, complex]:
+    """Fit after = factor · before + shift, the factor real, to weighted sums (5,) of products."""
+    total, *others = sums.tolist()
+    x, y, overlap, power = [other / (total or 1.0) for other in others]
+    covariance, variance = (overlap - x.conjugate() * y).real, (power - x.conjugate() * x).real
+    factor = min(max((covariance + TRUST) / (variance + TRUST), limits[0]), limits[1])
+    return factor, y - factor * x

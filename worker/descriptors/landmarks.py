@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from worker.arrays import FloatArray, IntArray, SingleArray
+from worker.arrays import BoolArray, FloatArray, IntArray, SingleArray
 
 RUNGS = 4  # of the ladder of times to an octave
 SHORTER, LONGER = 1, 2  # rungs by which all times may be shifted down and up
@@ -20,11 +20,11 @@ WIDTH = len(SPREADS) + 4  # numbers of a landmark as stored: rates, Lab, share
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Landmarks:
-    """Points that stand for a surface."""
+    """Points that stand for a surface: a column for each."""
 
-    rates: SingleArray  # (p, 6), log-HKS differences from octave to octave, in usual deviations
-    lab: SingleArray  # (p, 3), mean colour of each point's cell
-    shares: SingleArray  # (p,), of the area; they sum to 1, and are 0 where a small mesh has fewer points
+    rates: SingleArray  # (6, p), log-HKS differences from octave to octave, in usual deviations
+    lab: SingleArray  # (3, p), mean colour of each point's cell
+    shares: SingleArray  # (p,), of the area, positive; they sum to 1
 
 
 def log_heat_ladder(log_signatures: FloatArray, n_points: int) -> FloatArray:
@@ -51,7 +51,8 @@ def place_landmarks(
     Returns
     -------
     (n_points, 4) array
-        Area-weighted mean Lab of the vertices nearest to each point, and their share of the area.
+        Area-weighted mean Lab of the vertices nearest to each point, and their share of the area; zeros
+        where a small mesh has fewer points.
     """
     nearest = cKDTree(vertices[points]).query(vertices)[1]
     sums = np.bincount(nearest, areas, n_points)
@@ -84,7 +85,12 @@ def pack(ladder: FloatArray, placed: FloatArray) -> FloatArray:
 
 
 def unpack(packed: SingleArray) -> Landmarks:
-    """Return landmarks from what `pack` gave, in one piece or as a flat vector."""
-    rows = packed.reshape(-1, WIDTH)
+    """Return landmarks from what `pack` gave, in one piece or as a flat vector, but those without area."""
+    columns = np.ascontiguousarray(packed.reshape(-1, WIDTH)[present(packed)].T)
     n_rates = len(SPREADS)
-    return Landmarks(rates=rows[:, :n_rates], lab=rows[:, n_rates : n_rates + 3], shares=rows[:, -1])
+    return Landmarks(rates=columns[:n_rates], lab=columns[n_rates : n_rates + 3], shares=columns[-1])
+
+
+def present(packed: SingleArray) -> BoolArray:
+    """Return which rows (p,) of what `pack` gave stand for some area."""
+    return np.asarray(packed.reshape(-1, WIDTH)[:, -1] > 0)

@@ -8,7 +8,12 @@ from worker.arrays import BoolArray, SingleArray
 _TO_XYZ = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]])
 _TO_RELATIVE = (_TO_XYZ / _TO_XYZ.sum(axis=1, keepdims=True)).astype(np.float32)
 _TO_LINEAR = np.linalg.inv(_TO_RELATIVE).astype(np.float32)
-_BEND = 6.0 / 29.0  # where Lab's cube root becomes a straight line
+# Roots of relative X, Y and Z, less those of black, to Lab (CIE 15), and back.
+_FROM_ROOTS = np.array([[0.0, 116.0, 0.0], [500.0, -500.0, 0.0], [0.0, 200.0, -200.0]], np.float32)
+_TO_ROOTS = np.linalg.inv(_FROM_ROOTS).astype(np.float32)
+_BLACK = 4.0 / 29.0  # what Lab takes for the cube root of 0
+_BEND = 6.0 / 29.0  # root below which the cube is replaced by its tangent there
+_SLOPE = 3.0 * _BEND**2  # of that tangent
 _SLACK = 1e-3  # of linear sRGB, within which a colour counts as inside
 
 
@@ -17,33 +22,31 @@ def clip_to_gamut(lab: SingleArray) -> tuple[SingleArray, BoolArray]:
 
     Parameters
     ----------
-    lab : (n, 3) array
-        CIE Lab under D65.
+    lab : (3, n) array
+        CIE Lab under D65: a row of L, one of a, one of b.
 
     Returns
     -------
-    clipped : (n, 3) array
+    clipped : (3, n) array
         Colours inside the gamut as they came.
     outside : (n,) array
         Which were not.
     """
-    linear = _relative(lab) @ _TO_LINEAR.T
-    outside = np.asarray(((linear < -_SLACK) | (linear > 1.0 + _SLACK)).any(axis=1))
+    linear = _TO_LINEAR @ _relative(lab)
+    outside = np.asarray(np.abs(linear - 0.5).max(axis=0) > 0.5 + _SLACK)
     if not outside.any():
         return lab, outside
-    clipped = lab.copy()
-    clipped[outside] = _lab(np.clip(linear[outside], 0.0, 1.0) @ _TO_RELATIVE.T)
-    return clipped, outside
+    return np.where(outside, _lab(_TO_RELATIVE @ linear.clip(0.0, 1.0)), lab), outside
 
 
 def _relative(lab: SingleArray) -> SingleArray:
-    """Return XYZ relative to the white point (CIE 15)."""
-    middle = (lab[:, 0] + np.float32(16.0)) / np.float32(116.0)
-    roots = np.stack([middle + lab[:, 1] / 500, middle, middle - lab[:, 2] / 200], axis=1)
-    return np.where(roots > _BEND, roots**3, (roots - 4.0 / 29.0) * (3.0 * _BEND**2)).astype(np.float32)
+    """Return XYZ relative to the white point (CIE 15); (3, n)."""
+    roots = _TO_ROOTS @ lab + _BLACK
+    above = np.maximum(roots, _BEND)
+    return np.asarray(above * above * above + _SLOPE * (roots - above))
 
 
 def _lab(relative: SingleArray) -> SingleArray:
-    roots = np.where(relative > _BEND**3, np.cbrt(relative), relative / (3.0 * _BEND**2) + 4.0 / 29.0)
-    x, y, z = roots.T
-    return np.stack([116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)], axis=1).astype(np.float32)
+    above = np.maximum(relative, _BEND**3)
+    roots = np.cbrt(above) + (relative - above) / _SLOPE
+    return np.asarray(_FROM_ROOTS @ (roots - _BLACK))
