@@ -8,14 +8,16 @@ from pathlib import Path
 import numpy as np
 
 from service.jobs.describing import FilesOnDisk
-from worker.arrays import SingleArray
+from worker.arrays import FloatArray, SingleArray
 from worker.describe import Description, MeshFacts
+from worker.descriptors.landmarks import LADDER, pack
 from worker.parameters import Parameters
 from worker.reading.limits import Limits
 from worker.reading.mesh import Mesh
 from worker.reading.upload import Upload, read_mesh
 
 POINTS = 80  # surface points of a fake description
+LANDMARKS = 32
 WORDS = ("hks-0", "hks-0.05", "hks-0.1", "log-hks")
 
 
@@ -42,6 +44,7 @@ def make_trouble(names: set[str]) -> None:
 
 def fake_description(mesh: Mesh, parameters: Parameters) -> Description:
     colour = mesh.corner_colours.mean(axis=(0, 1))  # (3,)
+    signatures = fake_signatures(float(colour[0]))
     facts = MeshFacts(
         vertices=len(mesh.vertices),
         faces=len(mesh.faces),
@@ -56,8 +59,9 @@ def fake_description(mesh: Mesh, parameters: Parameters) -> Description:
         blocks={
             "colour-histogram": np.resize(colour, 4096).astype(np.float32),
             "colour-curves": np.resize(colour, 144).astype(np.float32),
+            "landmarks": fake_landmarks(100 * colour, signatures["landmark-ladder"]),
         },
-        signatures=fake_signatures(float(colour[0])),
+        signatures=signatures,
         thumbnail=b"\x89PNG\r\n\x1a\n",
         preview=b"glTF",
     )
@@ -74,7 +78,17 @@ def fake_signatures(level: float) -> dict[str, SingleArray]:
         "diffusion-geometric": quantiles,
         "diffusion-joint": quantiles,
         "eigenvalues-0": eigenvalues,
+        "landmark-ladder": (-level * np.linspace(1, 2, LANDMARKS)[:, None] * np.log(LADDER)).astype(
+            np.float32
+        ),
+        "meshhog": np.abs(np.sin(points @ np.ones((6, 1)) * np.arange(1, 97))).astype(np.float32),
     }
+
+
+def fake_landmarks(lab: FloatArray, ladder: SingleArray) -> SingleArray:
+    """Return landmarks of one colour, each with the same share."""
+    placed = np.column_stack([np.tile(lab, (LANDMARKS, 1)), np.full(LANDMARKS, 1 / LANDMARKS)])
+    return pack(ladder.astype(np.float64), placed).ravel().astype(np.float32)
 
 
 def coloured_triangle(red: int = 200, green: int = 100, blue: int = 50) -> bytes:

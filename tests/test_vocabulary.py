@@ -12,6 +12,7 @@ def made_signatures(seed: int, n: int = 300) -> Signatures:
     random = np.random.default_rng(seed)
     signatures = {name: random.uniform(1e-4, 1e-3, (n, 6)) for name in ("hks-0", "hks-0.05", "hks-0.1")}
     signatures["log-hks"] = random.normal(-0.5, 0.1, (n, 6))
+    signatures["meshhog"] = random.uniform(0, 1, (90 + seed, 96))  # features, not vertices
     signatures["areas"] = random.uniform(1, 5, n)
     signatures["landmark-ladder"] = random.uniform(-9, 0, (256, 28))
     for name in ("diffusion-geometric", "diffusion-joint"):
@@ -22,8 +23,15 @@ def made_signatures(seed: int, n: int = 300) -> Signatures:
 def test_a_vocabulary_has_the_words_of_the_paper() -> None:
     vocabulary = learn_vocabulary([made_signatures(seed) for seed in range(5)], "f")
     sizes = {block: len(words.words) for block, words in vocabulary.words.items()}
-    assert sizes == {"hks-0": 48, "hks-0.05": 48, "hks-0.1": 48, "log-hks": 64}
+    assert sizes == {"hks-0": 48, "hks-0.05": 48, "hks-0.1": 48, "log-hks": 128, "meshhog": 48}
     assert set(vocabulary.grids) == {"diffusion-geometric", "diffusion-joint"}
+
+
+def test_a_library_without_features_gets_a_vocabulary_without_their_words() -> None:
+    shapes = [made_signatures(seed) for seed in range(3)]
+    for shape in shapes:
+        shape["meshhog"] = shape["meshhog"][:0]
+    assert "meshhog" not in learn_vocabulary(shapes, "f").words
 
 
 def test_the_same_shapes_give_the_same_vocabulary() -> None:
