@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from service.evaluation.protocol import VERSION, Recipe
-from service.evaluation.sources import MADE
+from service.evaluation.sources import MADE, companions_of
 from worker.arrays import SingleArray
 
 REFUSED = "refused"  # name of the text that stands in for the blocks of a refused mesh
@@ -69,6 +69,13 @@ class Cache:
 
     def _digest(self, source: str) -> str:
         if source not in self._digests:
-            content = source.encode() if source.startswith(MADE) else (self._folder / source).read_bytes()
-            self._digests[source] = hashlib.sha256(content).hexdigest()
+            text = source if source.startswith(MADE) else _state(self._folder / source)
+            self._digests[source] = hashlib.sha256(text.encode()).hexdigest()
         return self._digests[source]
+
+
+def _state(mesh: Path) -> str:
+    """Return what changes when a mesh does, or something that it may refer to: content, or size and time."""
+    stats = {name: path.stat() for name, path in companions_of(mesh).items()}
+    beside = [(name, stat.st_size, stat.st_mtime_ns) for name, stat in stats.items()]
+    return json.dumps([hashlib.sha256(mesh.read_bytes()).hexdigest(), *beside])

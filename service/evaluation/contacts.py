@@ -8,9 +8,11 @@ from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import cKDTree
 
 from service.evaluation.joining import append, painted, select_faces
-from worker.arrays import FloatArray
+from worker.arrays import FloatArray, IntArray
 from worker.geometry.areas import face_vectors
 from worker.geometry.colour import look_up_colours
+from worker.geometry.edges import find_edges, lengths_of
+from worker.geometry.repair import weld
 from worker.reading.mesh import Mesh
 
 REACH = 0.03  # length of the longest weld, as a share of √area: 4 cm on a person
@@ -33,36 +35,44 @@ def weld_contacts(mesh: Mesh, strength: int, random: np.random.Generator) -> Mes
 
 
 def _contacts(mesh: Mesh, wanted: int, random: np.random.Generator) -> Iterator[tuple[int, int]]:
-    """Yield pairs of faces at the ends of the shortest welds, no face and no neighbourhood twice."""
-    unit = np.sqrt(np.linalg.norm(face_vectors(mesh.vertices, mesh.faces), axis=1).sum())
-    ends = random.choice(len(mesh.vertices), min(ENDS, len(mesh.vertices)), replace=False)
-    along = dijkstra(_edge_graph(mesh), directed=False, indices=ends, limit=AWAY * unit)  # (e, n)
-    tree = cKDTree(mesh.vertices)
-    pairs = []
-    for end, distances in zip(ends, along, strict=True):
-        near = np.array(tree.query_ball_point(mesh.vertices[end], REACH * unit))
-        far = near[np.isinf(distances[near])]
-        lengths = np.linalg.norm(mesh.vertices[far] - mesh.vertices[end], axis=1)
-        if len(far) and lengths.min() > 0:
-            pairs.append((float(lengths.min()), int(end), int(far[lengths.argmin()])))
-    face_of = dict(
-        zip(mesh.faces.ravel().tolist(), np.repeat(np.arange(len(mesh.faces)), 3).tolist(), strict=True)
-    )
+    """Yield pairs of faces at the ends of the shortest welds, no vertex and no neighbourhood twice."""
+    faces = weld(mesh.vertices)[mesh.faces]  # a seam where a file splits vertices is no border
+    unit = np.sqrt(np.linalg.norm(face_vectors(mesh.vertices, faces), axis=1).sum())
+    face_of = dict(zip(faces.ravel().tolist(), np.repeat(np.arange(len(faces)), 3).tolist(), strict=True))
     taken: list[FloatArray] = []
-    for _, first, second in sorted(pairs):
+    used: set[int] = set()
+    for first, second in _near_but_far(mesh.vertices, faces, unit, random):
         middle = mesh.vertices[[first, second]].mean(axis=0)
+        corners = set(faces[[face_of[first], face_of[second]]].ravel().tolist())
         apart = all(np.linalg.norm(middle - other) > 2 * REACH * unit for other in taken)
-        if apart and first in face_of and second in face_of and len(taken) < wanted:
+        if apart and len(corners - used) == 6 and len(taken) < wanted:
             taken.append(middle)
+            used |= corners
             yield face_of[first], face_of[second]
 
 
-def _edge_graph(mesh: Mesh) -> sparse.csr_array:
-    edges = np.vstack([mesh.faces[:, [0, 1]], mesh.faces[:, [1, 2]], mesh.faces[:, [2, 0]]])
-    edges = np.unique(np.sort(edges, axis=1), axis=0)
-    lengths = np.linalg.norm(mesh.vertices[edges[:, 0]] - mesh.vertices[edges[:, 1]], axis=1)
-    n = len(mesh.vertices)
-    return sparse.csr_array((lengths, (edges[:, 0], edges[:, 1])), shape=(n, n))
+def _near_but_far(
+    vertices: FloatArray, faces: IntArray, unit: float, random: np.random.Generator
+) -> list[tuple[int, int]]:
+    """Return pairs of vertices that are near in space and far along the surface, the nearest first."""
+    named = np.unique(faces)
+    ends = random.choice(named, min(ENDS, len(named)), replace=False)
+    along = dijkstra(_edge_graph(vertices, faces), directed=False, indices=ends, limit=AWAY * unit)  # (e, n)
+    tree = cKDTree(vertices[named])
+    pairs = []
+    for end, distances in zip(ends, along, strict=True):
+        near = named[tree.query_ball_point(vertices[end], REACH * unit)]
+        far = near[np.isinf(distances[near])]
+        if len(far):
+            lengths = np.linalg.norm(vertices[far] - vertices[end], axis=1)
+            pairs.append((float(lengths.min()), int(end), int(far[lengths.argmin()])))
+    return [(first, second) for _, first, second in sorted(pairs)]
+
+
+def _edge_graph(vertices: FloatArray, faces: IntArray) -> sparse.csr_array:
+    edges = find_edges(faces)
+    n = len(vertices)
+    return sparse.csr_array((lengths_of(vertices, edges), edges.ends.T), shape=(n, n))
 
 
 def _tunnel(mesh: Mesh, first: int, second: int) -> Mesh:
@@ -76,8 +86,8 @@ def _tunnel(mesh: Mesh, first: int, second: int) -> Mesh:
         [*range(3), *(3 + int(np.flatnonzero(mesh.faces[second] == c)[0]) for c in corners[3:])]
     ]
     faces = np.array(
-        [(k, 3 + k, (k + 1) % 3) for k in range(3)]
-        + [((k + 1) % 3, 3 + k, 3 + (k + 1) % 3) for k in range(3)]
+        [(k, (k + 1) % 3, 3 + k) for k in range(3)]
+        + [((k + 1) % 3, 3 + (k + 1) % 3, 3 + k) for k in range(3)]
     )
     return painted(mesh, mesh.vertices[corners], faces, colours[faces])
 

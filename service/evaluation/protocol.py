@@ -13,7 +13,7 @@ import numpy as np
 from service.evaluation.folder import Model
 from service.evaluation.photometric import PHOTOMETRIC
 
-VERSION = 1  # raised when the queries change
+VERSION = 2  # raised when the queries, or the shapes of a gallery, change
 STRENGTHS = (1, 2, 3, 4, 5)
 ISOMETRY, PARTIALITY, MIXED = "isometry+topology", "partiality", "mixed"
 TRANSFORMATIONS = (ISOMETRY, PARTIALITY, *PHOTOMETRIC, MIXED)  # rows of the paper's tables

@@ -32,17 +32,21 @@ def read_source(folder: Path, source: str) -> Mesh:
 
 
 def files_of(folder: Path, source: str) -> Mapping[str, bytes]:
-    """Return a source's files: the mesh, and what lies beside and below it that is no mesh."""
+    """Return a source's files: the mesh, and for an OBJ what lies beside and below it that is no mesh."""
     if source.startswith(MADE):
         return random_creature(int(source.removeprefix(MADE)), SEED).files
     mesh = folder / source
+    return FilesOnDisk({mesh.name: mesh, **companions_of(mesh)})
+
+
+def companions_of(mesh: Path) -> dict[str, Path]:
+    """Return what a mesh may refer to: name relative to it → path."""
     if mesh.suffix.lower() != ".obj":
-        return {mesh.name: mesh.read_bytes()}
-    beside = {path.relative_to(mesh.parent).as_posix(): path for path in _companions(mesh.parent)}
-    return FilesOnDisk({mesh.name: mesh, **beside})
+        return {}
+    return {path.relative_to(mesh.parent).as_posix(): path for path in _no_meshes(mesh.parent)}
 
 
-def _companions(folder: Path) -> Iterator[Path]:
+def _no_meshes(folder: Path) -> Iterator[Path]:
     return (
         path for path in sorted(folder.rglob("*")) if path.is_file() and path.suffix.lower() not in MESHES
     )

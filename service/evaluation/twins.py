@@ -48,6 +48,6 @@ def _solid_colours(coat: Coat, points: FloatArray) -> FloatArray:
     """Return sRGB (n, 3) at points: marks on a ground, lighter below and with another colour at the top."""
     marks = PATTERNS[coat.pattern](points / coat.scale, np.random.default_rng(coat.seed))
     ground = mix(np.broadcast_to(rgb(coat.base), points.shape), rgb(coat.mark), marks)
-    heights = np.argsort(np.argsort(points[:, 1])) / len(points)  # 0…1 from below
+    heights = np.searchsorted(np.sort(points[:, 1]), points[:, 1]) / len(points)  # 0…1 from below
     ground = mix(ground, rgb(coat.belly), 0.7 * step(-heights, -0.2, 0.2))
     return mix(ground, rgb(coat.tip), 0.8 * step(heights, 0.9, 0.1))
