@@ -4,6 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TypeVar
 
+import numpy as np
+
 from worker.arrays import SingleArray
 from worker.descriptors.landmarks import LADDER, unpack
 from worker.descriptors.registration import query_of, register
@@ -53,6 +55,9 @@ def refine(found: Ranked, query: QueryLandmarks, stored: Mapping[str, SingleArra
 
 
 def additions_to(query: QueryLandmarks, stored: Mapping[Key, SingleArray]) -> dict[Key, float]:
-    """Return what registration adds to the distance of each shape."""
+    """Return what registration adds to the distance of each shape: 0 for the same landmarks, to the last bit."""
     ready = query_of(query.ladder.reshape(-1, len(LADDER)), query.packed)
-    return {key: register(ready, unpack(block)).distance() for key, block in stored.items()}
+    return {
+        key: 0.0 if np.array_equal(block, query.packed) else register(ready, unpack(block)).distance()
+        for key, block in stored.items()
+    }
