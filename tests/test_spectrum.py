@@ -125,3 +125,10 @@ def test_eigenfunctions_satisfy_the_equation() -> None:
     functions = pairs.eigenfunctions
     residuals = (stiffness @ functions) / areas[:, None] - functions * pairs.eigenvalues
     np.testing.assert_allclose(residuals, 0.0, atol=1e-8 * PARAMETERS.fine_cutoff * np.abs(functions).max())
+
+
+def test_the_constant_function_is_constant_to_the_last_digits() -> None:
+    stiffness, areas = operator("cotangent")
+    pairs = solve_eigenpairs(stiffness, areas, PARAMETERS.cutoff)
+    assert pairs.eigenvalues[0] == 0.0
+    np.testing.assert_allclose(pairs.eigenfunctions[:, 0], 1 / np.sqrt(areas.sum()), rtol=1e-14)
