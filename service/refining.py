@@ -55,7 +55,7 @@ def refine(found: Ranked, query: QueryLandmarks, stored: Mapping[str, SingleArra
 
 
 def additions_to(query: QueryLandmarks, stored: Mapping[Key, SingleArray]) -> dict[Key, float]:
-    """Return what registration adds to the distance of each shape: 0 for the same landmarks, to the last bit."""
+    """Return what registration adds to the distance of each shape: exactly 0 for the same landmarks."""
     ready = query_of(query.ladder.reshape(-1, len(LADDER)), query.packed)
     return {
         key: 0.0 if np.array_equal(block, query.packed) else register(ready, unpack(block)).distance()
