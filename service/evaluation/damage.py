@@ -46,6 +46,8 @@ def stick_on_ball(mesh: Mesh, strength: int, random: np.random.Generator) -> Mes
     """Put a red ball on the surface, of 6 % of its area for each step of strength."""
     vectors = face_vectors(mesh.vertices, mesh.faces)
     areas = np.linalg.norm(vectors, axis=1)
+    if not areas.any():
+        return mesh  # no place for a ball; repair refuses it
     radius = np.sqrt(PART * strength * areas.sum() / (4.0 * np.pi))
     face = random.choice(len(areas), p=areas / areas.sum())
     outwards = vectors[face] / areas[face]

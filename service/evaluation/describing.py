@@ -12,13 +12,12 @@ from service.evaluation.protocol import Geometry, Recipe
 from service.evaluation.sources import read_source
 from service.quantisation import quantise
 from service.refining import QUERY_LADDER
-from worker.canonical import paint, stretch_canvas
+from worker.canonical import Surface, paint, stretch_canvas
 from worker.describe import describe_surface, in_single_precision
 from worker.errors import MeshError
 from worker.geometry.repair import repair
-from worker.intrinsic import describe_triangles
+from worker.intrinsic import Intrinsic, describe_triangles
 from worker.parameters import Parameters
-from worker.reading.mesh import Mesh
 
 TOGETHER = 10  # meshes described by one process: few enough to share out evenly, enough to share triangles
 
@@ -50,37 +49,44 @@ def describe_all(pool: Executor, setting: Setting, recipes: Iterable[Recipe]) ->
     int
         How many more are done, as they are.
     """
-    groups = list(_groups(recipes))
-    running = {pool.submit(describe_group, setting, *group): len(group[1]) for group in groups}
+    running = {pool.submit(describe_group, setting, *group): group[1] for group in _groups(recipes)}
     for done in as_completed(running):
-        done.result()
-        yield running[done]
+        try:
+            done.result()
+        except MeshError as error:  # over the limits of a job
+            cache = setting.open_cache()
+            _refuse(cache, missing(cache, running[done]), error)
+        yield len(running[done])
 
 
 def describe_group(setting: Setting, geometry: Geometry, recipes: tuple[Recipe, ...]) -> None:
-    """Describe meshes that differ in colour alone."""
+    """Describe meshes that differ in colour alone; what is refused is stored with its reason."""
     cache = setting.open_cache()
     try:
         mesh = damaged(read_source(setting.folder, geometry.source), geometry)
-        for recipe, described in _describe(mesh, recipes, setting):
-            cache.store(recipe, described)
+        canvas = stretch_canvas(repair(mesh), setting.parameters)
+        intrinsic = describe_triangles(canvas.vertices, canvas.faces, setting.parameters)
     except MeshError as error:
-        for recipe in recipes:
-            cache.store(recipe, Described(blocks={}, refused=str(error)))
-
-
-def _describe(
-    mesh: Mesh, recipes: tuple[Recipe, ...], setting: Setting
-) -> Iterator[tuple[Recipe, Described]]:
-    canvas = stretch_canvas(repair(mesh), setting.parameters)
-    intrinsic = describe_triangles(canvas.vertices, canvas.faces, setting.parameters)
+        _refuse(cache, recipes, error)
+        return
     for recipe in recipes:
-        surface = paint(coloured(mesh, recipe), canvas)
-        blocks, signatures = describe_surface(surface, setting.parameters, intrinsic)
-        single = in_single_precision(signatures)
-        quantised = quantise(single, setting.vocabulary)
-        kept = {**in_single_precision(blocks), **quantised, QUERY_LADDER: single[QUERY_LADDER]}
-        yield recipe, Described(blocks=kept)
+        try:
+            surface = paint(coloured(mesh, recipe), canvas)
+            cache.store(recipe, _describe(surface, intrinsic, setting))
+        except MeshError as error:
+            _refuse(cache, [recipe], error)
+
+
+def _describe(surface: Surface, intrinsic: Intrinsic, setting: Setting) -> Described:
+    blocks, signatures = describe_surface(surface, setting.parameters, intrinsic)
+    single = in_single_precision(signatures)
+    quantised = quantise(single, setting.vocabulary)
+    return Described(blocks={**in_single_precision(blocks), **quantised, QUERY_LADDER: single[QUERY_LADDER]})
+
+
+def _refuse(cache: Cache, recipes: Iterable[Recipe], error: MeshError) -> None:
+    for recipe in recipes:
+        cache.store(recipe, Described(blocks={}, refused=str(error)))
 
 
 def _groups(recipes: Iterable[Recipe]) -> Iterator[tuple[Geometry, tuple[Recipe, ...]]]:

@@ -102,6 +102,8 @@ def first_stage(method: Method, queries: Sequence[Described], shapes: Sequence[D
     """Return Σ_b w_b ‖x_b − y_b‖₁^p of every query to every shape, by the formula; (q, g)."""
     answered = [place for place, query in enumerate(queries) if query.refused is None]
     total = np.full((len(queries), len(shapes)), np.inf)
+    if not answered:
+        return total
     total[answered] = sum(
         block.weight
         * cdist(

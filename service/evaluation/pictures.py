@@ -7,6 +7,7 @@ from service.evaluation.making import coloured, damaged
 from service.evaluation.protocol import Recipe
 from service.evaluation.sources import read_source
 from service.evaluation.suites import Suite
+from worker.errors import MeshError
 from worker.geometry.repair import repair
 from worker.pictures.thumbnail import thumbnail
 
@@ -14,7 +15,7 @@ SIDE = 160  # pixels
 
 
 class Pictures(Mapping[str, bytes]):
-    """Name of a query or a gallery entry → PNG.
+    """Name of a query or a gallery entry → PNG; what is refused has none.
 
     Parameters
     ----------
@@ -32,7 +33,10 @@ class Pictures(Mapping[str, bytes]):
 
     def __getitem__(self, name: str) -> bytes:
         if name not in self._drawn:
-            self._drawn[name] = self._draw(self._recipes[name])
+            try:
+                self._drawn[name] = self._draw(self._recipes[name])
+            except MeshError as error:
+                raise KeyError(name) from error
         return self._drawn[name]
 
     def __iter__(self) -> Iterator[str]:
