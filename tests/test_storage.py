@@ -27,6 +27,18 @@ def test_signatures_come_back_bit_for_bit_in_single_precision(tmp_path: Path) ->
         np.testing.assert_array_equal(found[name], array)
 
 
+def test_only_the_signatures_asked_for_are_read(tmp_path: Path) -> None:
+    store = FileStore(tmp_path)
+    sent = {name: np.full((3, 2), number, np.float32) for number, name in enumerate("abc")}
+    save_signatures(store, "s1", sent)
+    found = load_signatures(store, "s1", ["c", "a"])
+    assert set(found) == {"a", "c"}
+    for name, array in found.items():
+        np.testing.assert_array_equal(array, sent[name])
+    with pytest.raises(KeyError, match="other"):
+        load_signatures(store, "s1", ["other"])
+
+
 def test_a_shape_without_signatures_is_named(tmp_path: Path) -> None:
     with pytest.raises(FileMissing):
         load_signatures(FileStore(tmp_path), "s1")

@@ -16,8 +16,8 @@ from worker.descriptors.landmarks import LONGER, SHORTER, Landmarks, present, ra
 KEPT = 0.9  # share of the area whose residuals count: the best
 COLOUR_UNIT = 10.0  # Lab units that weigh as much as a usual deviation of a rate
 SOFTNESS = 0.5  # σ of the first, geometric matching, in deviations
+FAINTEST = -60.0  # log of the least weight in it: numbers below the normal ones are slow to multiply
 TURNS = 3  # of matching and fitting
-FAINTEST = -60.0  # log of the least weight there: numbers below the normal ones are slow to multiply
 SHIFTS = tuple(range(-SHORTER, LONGER + 1))  # tried for the query's times: it may be larger or be cut
 
 
