@@ -7,7 +7,7 @@ from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import Any
 
-from index.errors import NotReady, VocabularyChanged
+from index.errors import FileMissing, NotReady, VocabularyChanged
 from index.methods import DEFAULT_METHOD, method, with_weights
 from index.shapes import Shape, Status, StoredFile
 from index.vocabulary import Vocabulary
@@ -111,10 +111,7 @@ def find_similar(library: Library, shape_id: str, question: Question) -> Answer:
         return library.catalogue.blocks(shape_id, vocabulary.id)
 
     def landmarks() -> QueryLandmarks:
-        packed = library.catalogue.blocks_of([shape_id], [LANDMARKS])[shape_id][LANDMARKS]
-        return QueryLandmarks(
-            packed=packed, ladder=load_signatures(library.files, shape_id, [QUERY_LADDER])[QUERY_LADDER]
-        )
+        return _stored_landmarks(library, shape_id)
 
     found = _rank(library, question, blocks, landmarks, exclude=(shape_id,))
     return _answer(library, question, found, start)
@@ -216,6 +213,17 @@ def _rank(
     blocks_of = library.catalogue.blocks_of([shape_id for shape_id, _ in found[:first]], [LANDMARKS])
     stored = {shape_id: block[LANDMARKS] for shape_id, block in blocks_of.items() if block}
     return refine(found, landmarks(), stored, first)[: question.limit]
+
+
+def _stored_landmarks(library: Library, shape_id: str) -> QueryLandmarks:
+    """Read a stored query's landmarks; ShapeNotFound where it was removed in this moment."""
+    packed = library.catalogue.blocks(shape_id, None)[LANDMARKS]
+    try:
+        ladder = load_signatures(library.files, shape_id, [QUERY_LADDER])[QUERY_LADDER]
+    except FileMissing:
+        library.catalogue.get(shape_id)
+        raise
+    return QueryLandmarks(packed=packed, ladder=ladder)
 
 
 def _search(

@@ -37,4 +37,4 @@ def load_signatures(
     """Return the signatures of a ready shape, or only some of them; FileMissing where there are none."""
     data = files.get(derived_key(shape_id, SIGNATURES))
     with np.load(io.BytesIO(data), allow_pickle=False) as archive:
-        return {name: archive[name] for name in names or archive.files}
+        return {name: archive[name] for name in (archive.files if names is None else names)}

@@ -107,11 +107,11 @@ def _measure(
 def _tell(
     outcomes: Sequence[Outcome], known: dict[str, Any], pictures: Pictures, out: Path, as_json: bool
 ) -> None:
-    document = json.dumps(as_document(outcomes, known), indent=1)
-    (out / RESULTS).write_text(document + "\n", encoding="utf-8")
+    document = as_document(outcomes, known)
+    (out / RESULTS).write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
     write_report(out / REPORT, [whole_methods(outcome) for outcome in outcomes], pictures, known)
     if as_json:
-        print(document, flush=True)  # noqa: T201 - this is the command's output
+        print(json.dumps(document), flush=True)  # noqa: T201 - this is the command's output
         return
     console = Console()
     for outcome in outcomes:
