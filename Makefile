@@ -1,5 +1,5 @@
 # Every command sets up what it needs; `make setup` alone prepares .venv.
-.PHONY: setup run test check lock vocabulary picture evaluation
+.PHONY: setup run test check lock vocabulary picture evaluation choices
 VENV := .venv
 PYTHON := $(VENV)/bin/python
 STAMP := $(VENV)/.complete
@@ -40,3 +40,7 @@ picture: setup
 evaluation: setup
 	$(VENV)/bin/faience evaluate $(DATA) --hard --ablation
 	$(PYTHON) -m benchmarks.evaluation_page faience-evaluation/results.json
+
+# Measures what the choices cost that the paper leaves open, and fills the tables of docs/choices.md: make choices DATA=folder
+choices: setup
+	$(PYTHON) -m benchmarks.choices $(DATA)
