@@ -10,20 +10,20 @@ from typing import Any
 PAGE = Path(__file__).parents[1] / "docs" / "evaluation.md"
 STRENGTHS = ("1", "≤ 2", "≤ 3", "≤ 4", "≤ 5")
 DETAILED = ("fused", "chks")  # methods whose strengths are shown one by one
-PARTS = re.compile(r"(<!-- table (\S+) -->\n).*?(<!-- end -->)", re.DOTALL)
+PARTS = re.compile(r"(<!-- table (\S+) -->\n)(.*?)(<!-- end -->)", re.DOTALL)
 PLAIN = re.compile(r"[^:,]+")  # a method's name, without what an ablation left out of it
 
 Methods = Mapping[str, Mapping[str, Mapping[str, Sequence[float | None]]]]
 
 
 def main() -> None:
-    """Rewrite what stands between the page's markers."""
+    """Rewrite what stands between the page's markers; a table without new results stays as it is."""
     arguments = argparse.ArgumentParser(description=__doc__)
     arguments.add_argument("results", type=Path)
     document = json.loads(arguments.parse_args().results.read_text(encoding="utf-8"))
     tables = {name: table for test in document["tests"] for name, table in tables_of(test).items()}
     page = PAGE.read_text(encoding="utf-8")
-    filled = PARTS.sub(lambda part: f"{part[1]}{tables.get(part[2], '')}{part[3]}", page)
+    filled = PARTS.sub(lambda part: f"{part[1]}{tables.get(part[2], part[3])}{part[4]}", page)
     PAGE.write_text(filled, encoding="utf-8")
     print(f"{PAGE.name}: {', '.join(tables)}")
 
