@@ -7,14 +7,14 @@ from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import Any
 
-from index.errors import FileMissing, NotReady, VocabularyChanged
+from index.errors import FileMissing, FingerprintMismatch, NotReady, VocabularyChanged
 from index.methods import DEFAULT_METHOD, method, with_weights
 from index.shapes import Shape, Status, StoredFile
 from index.vocabulary import Vocabulary
 from service.intake.submissions import Submission
 from service.jobs.describing import Describe, describe_files
 from service.library import Library
-from service.quantisation import quantise
+from service.quantisation import quantise, require_same
 from service.refining import LANDMARKS, QUERY_LADDER, QueryLandmarks, refine
 from service.storage import load_signatures, upload_key
 from service.vocabularies import active_vocabulary
@@ -151,6 +151,7 @@ def search_description(
     """Return ids and distances of the shapes nearest to a description."""
 
     def blocks(vocabulary: Vocabulary) -> Mapping[str, SingleArray]:
+        require_same(description.fingerprint, vocabulary)
         return {**description.blocks, **quantise(description.signatures, vocabulary)}
 
     def landmarks() -> QueryLandmarks:
@@ -216,8 +217,18 @@ def _rank(
 
 
 def _stored_landmarks(library: Library, shape_id: str) -> QueryLandmarks:
-    """Read a stored query's landmarks; ShapeNotFound where it was removed in this moment."""
-    packed = library.catalogue.blocks(shape_id, None)[LANDMARKS]
+    """Read a stored query's landmarks.
+
+    Raises
+    ------
+    ShapeNotFound
+        The shape was removed in this moment.
+    FingerprintMismatch
+        It was described by an earlier version.
+    """
+    packed = library.catalogue.blocks(shape_id, None).get(LANDMARKS)
+    if packed is None:
+        raise FingerprintMismatch("This shape was described by an earlier version; index its files anew.")
     try:
         ladder = load_signatures(library.files, shape_id, [QUERY_LADDER])[QUERY_LADDER]
     except FileMissing:
