@@ -4,7 +4,7 @@ Two folders of a cache: what triangles decide, and what colours add.
 """
 
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Executor, as_completed
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -15,6 +15,7 @@ import numpy as np
 from benchmarks.variants import CURVE_BLOCKS, HISTOGRAMS, Curves, Histogram
 from service.commands.progress import progress_bar
 from service.evaluation.cache import Cache, Described
+from service.evaluation.describing import groups_of
 from service.evaluation.making import coloured, damaged
 from service.evaluation.protocol import Geometry, Recipe
 from service.evaluation.sources import read_source
@@ -32,7 +33,6 @@ from worker.parameters import Parameters
 from worker.solving import solve_joint
 
 VERSION = "1"  # raised when other numbers get the same name
-TOGETHER = 14  # meshes for one process; a model's rest pose has up to 43 colourings
 SECONDS = "seconds"  # of processor time for the spectra at η > 0, kept beside what it gives
 
 
@@ -71,7 +71,7 @@ def share_out(
 ) -> None:
     """Do ``work(*context, geometry, recipes)`` on groups of meshes that share triangles, in processes."""
     running = {
-        pool.submit(work, *context, geometry, group): len(group) for geometry, group in _groups(recipes)
+        pool.submit(work, *context, geometry, group): len(group) for geometry, group in groups_of(recipes)
     }
     completed, total = 0, sum(running.values())
     with progress_bar(title, total) as advance:
@@ -145,12 +145,3 @@ def _of_colours(surface: Surface, intrinsic: Intrinsic, parameters: Parameters) 
         **{variant.name: histogram_of(variant, surface, areas) for variant in HISTOGRAMS},
         **{variant.name: curves_of(variant, surface, intrinsic) for variant in CURVE_BLOCKS},
     }
-
-
-def _groups(recipes: Iterable[Recipe]) -> Iterator[tuple[Geometry, tuple[Recipe, ...]]]:
-    by_geometry: dict[Geometry, list[Recipe]] = {}
-    for recipe in recipes:
-        by_geometry.setdefault(recipe.geometry, []).append(recipe)
-    for geometry, sharing in by_geometry.items():
-        for start in range(0, len(sharing), TOGETHER):
-            yield geometry, tuple(sharing[start : start + TOGETHER])

@@ -49,7 +49,7 @@ def describe_all(pool: Executor, setting: Setting, recipes: Iterable[Recipe]) ->
     int
         How many more are done, as they are.
     """
-    running = {pool.submit(describe_group, setting, *group): group[1] for group in _groups(recipes)}
+    running = {pool.submit(describe_group, setting, *group): group[1] for group in groups_of(recipes)}
     for done in as_completed(running):
         try:
             done.result()
@@ -89,7 +89,8 @@ def _refuse(cache: Cache, recipes: Iterable[Recipe], error: MeshError) -> None:
         cache.store(recipe, Described(blocks={}, refused=str(error)))
 
 
-def _groups(recipes: Iterable[Recipe]) -> Iterator[tuple[Geometry, tuple[Recipe, ...]]]:
+def groups_of(recipes: Iterable[Recipe]) -> Iterator[tuple[Geometry, tuple[Recipe, ...]]]:
+    """Yield meshes that share triangles, at most TOGETHER at a time."""
     by_geometry: dict[Geometry, list[Recipe]] = {}
     for recipe in recipes:
         by_geometry.setdefault(recipe.geometry, []).append(recipe)
