@@ -59,18 +59,18 @@ def recolour(mesh: Mesh, change: str, strength: int, random: np.random.Generator
     """
     mean = mean_lightness(mesh) if change.startswith("contrast") else 0.0
 
-    def changed(srgb: FloatArray, noise: Callable[[], FloatArray]) -> FloatArray:
+    def changed(srgb: FloatArray, noise: FloatArray) -> FloatArray:
         lab = srgb_to_lab(srgb)
         if change == NOISE:
-            return lab_to_srgb(lab + DEVIATION * strength * noise())
+            return lab_to_srgb(lab + DEVIATION * strength * noise)
         return lab_to_srgb(CHANGES[change](lab, mean, strength))
 
     at_vertices = random.standard_normal((len(mesh.vertices), 3))
-    corners = changed(mesh.corner_colours.reshape(-1, 3), lambda: at_vertices[mesh.faces.ravel()])
+    corners = changed(mesh.corner_colours.reshape(-1, 3), at_vertices[mesh.faces.ravel()])
     images = []
     for texture in mesh.textures:
-        shape = (texture.shape[0] * texture.shape[1], 3)
-        texels = changed(texture.reshape(-1, 3) / 255.0, lambda: random.standard_normal(shape))  # noqa: B023 - called at once
+        colours = texture.reshape(-1, 3) / 255.0
+        texels = changed(colours, random.standard_normal(colours.shape))
         images.append(_bytes(texels).reshape(texture.shape))
     rounded = _bytes(corners).reshape(-1, 3, 3) / 255.0
     return replace(mesh, corner_colours=rounded, textures=tuple(images))
