@@ -7,8 +7,8 @@ from typing import TypeVar
 import numpy as np
 
 from worker.arrays import SingleArray
-from worker.descriptors.landmarks import LADDER, unpack
-from worker.descriptors.registration import query_of, register
+from worker.descriptors.landmarks import LADDER
+from worker.descriptors.registration import query_of, register_all
 
 LANDMARKS = "landmarks"  # block of every shape
 QUERY_LADDER = "landmark-ladder"  # signature of the query
@@ -56,8 +56,10 @@ def refine(found: Ranked, query: QueryLandmarks, stored: Mapping[str, SingleArra
 
 def additions_to(query: QueryLandmarks, stored: Mapping[Key, SingleArray]) -> dict[Key, float]:
     """Return what registration adds to the distance of each shape: exactly 0 for the same landmarks."""
+    other = {key: block for key, block in stored.items() if not np.array_equal(block, query.packed)}
+    if not other:
+        return dict.fromkeys(stored, 0.0)
     ready = query_of(query.ladder.reshape(-1, len(LADDER)), query.packed)
-    return {
-        key: 0.0 if np.array_equal(block, query.packed) else register(ready, unpack(block)).distance()
-        for key, block in stored.items()
-    }
+    found = register_all(ready, np.stack(list(other.values())))
+    distances = [registration.distance() for registration in found]
+    return dict.fromkeys(stored, 0.0) | dict(zip(other, distances, strict=True))

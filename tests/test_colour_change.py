@@ -4,7 +4,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from worker.arrays import SingleArray
-from worker.descriptors.colour_change import CONTRASTS, SATURATIONS, TRUST, ColourChange, fit_change
+from worker.descriptors.colour_change import (
+    CLIPPED,
+    CONTRASTS,
+    FLOOR,
+    ROUNDS,
+    SATURATIONS,
+    TRUST,
+    ColourChange,
+    fit_change,
+)
 from worker.geometry.gamut import clip_to_gamut
 
 CHANGES = st.builds(
@@ -26,6 +35,43 @@ def muted(n: int = 200) -> SingleArray:
 def numbers(change: ColourChange) -> list[float]:
     """Return factors in hundredths and shifts in Lab units: about as visible."""
     return [100 * change.contrast, 100 * change.saturation, change.offset, *change.tint]
+
+
+def slowly(before: SingleArray, after: SingleArray, weights: SingleArray) -> ColourChange:
+    """Fit by the definition: weighted ridge regression again and again, in double precision."""
+    in_light, in_chroma = weights, weights
+    for _ in range(ROUNDS):
+        contrast, offset = line(before[:1], after[:1], in_light, CONTRASTS)
+        saturation, tint = line(before[1:], after[1:], in_chroma, SATURATIONS)
+        change = ColourChange(
+            contrast=contrast, offset=offset[0], saturation=saturation, tint=(tint[0], tint[1])
+        )
+        clipped, outside = clip_to_gamut(change.unclipped(before))
+        trusted = np.where(outside, CLIPPED * weights, weights)
+        light, a, b = clipped - after
+        in_light, in_chroma = trusted / (np.abs(light) + FLOOR), trusted / (np.hypot(a, b) + FLOOR)
+    return change
+
+
+def line(
+    before: SingleArray, after: SingleArray, weights: SingleArray, limits: tuple[float, float]
+) -> tuple[float, list[float]]:
+    """Return factor and shifts of rows with one factor, which is pulled to 1."""
+    means, targets = (np.average(rows.astype(float), axis=1, weights=weights) for rows in (before, after))
+    covariance = np.average(((before - means[:, None]) * (after - targets[:, None])).sum(0), weights=weights)
+    variance = np.average(((before - means[:, None]) ** 2).sum(0), weights=weights)
+    factor = float(np.clip((covariance + TRUST) / (variance + TRUST), *limits))
+    return factor, (targets - factor * means).tolist()
+
+
+@given(st.integers(0, 1000), st.floats(1.0, 40.0))
+def test_it_is_what_the_definition_says(seed: int, spread: float) -> None:
+    random = np.random.default_rng(seed)
+    before, after = random.normal([[60.0], [0.0], [0.0]], spread, (2, 3, 100)).astype(np.float32)
+    after = 0.5 * (before + after)
+    weights = random.uniform(0.0, 1.0, 100).astype(np.float32)
+    found = numbers(fit_change(before, after, weights))
+    np.testing.assert_allclose(found, numbers(slowly(before, after, weights)), rtol=1e-3, atol=1e-3)
 
 
 def test_no_change_leaves_colours_as_they_are() -> None:

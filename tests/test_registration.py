@@ -22,7 +22,7 @@ from worker.descriptors.registration import (
     TURNS,
     Registration,
     register,
-    trimmed_mean,
+    register_all,
 )
 from worker.descriptors.signatures import heat_kernel_signatures, log_of
 from worker.geometry.repair import repair
@@ -160,22 +160,11 @@ def test_shapes_that_have_nothing_in_common_give_numbers() -> None:
         assert found.distance() > 100.0
 
 
-def test_the_worst_tenth_of_the_area_does_not_count() -> None:
-    ten = np.arange(1.0, 11.0, dtype=np.float32)
-    assert trimmed_mean(ten, np.full(10, 0.1, np.float32)) == pytest.approx(5.0)
-    two = np.array([3.0, 1.0], np.float32)
-    assert trimmed_mean(two, np.array([0.5, 0.5], np.float32)) == pytest.approx((0.5 + 0.4 * 3.0) / 0.9)
-    assert trimmed_mean(two, np.array([0.1, 0.9], np.float32)) == pytest.approx(1.0)
-
-
-@given(st.integers(0, 1000), st.floats(0.1, 10.0))
-def test_trimmed_means_follow_the_definition_row_by_row(seed: int, scale: float) -> None:
-    random = np.random.default_rng(seed)
-    values = random.exponential(1.0, (4, 30)).astype(np.float32)
-    shares = random.uniform(0.0, 1.0, 30).astype(np.float32)
-    expected = [trimmed(row, shares) for row in values]
-    np.testing.assert_allclose(trimmed_mean(values, np.float32(scale) * shares), expected, rtol=1e-4)
-    assert (trimmed_mean(values, shares) < np.average(values, axis=1, weights=shares)).all()
+def test_shapes_registered_together_are_registered_as_alone() -> None:
+    query, shapes = marked(0, 60).query(), [marked(seed) for seed in range(5)]
+    packed = np.stack([shape.packed() for shape in shapes])
+    alone = [register(query, shape.stored()) for shape in shapes]
+    assert register_all(query, packed) == register_all(query, packed.reshape(5, -1)) == alone
 
 
 def test_an_unusual_light_costs_where_nothing_else_does() -> None:
