@@ -1,7 +1,8 @@
 import numpy as np
+from scipy.spatial.distance import cdist
 
 from tests.shapes import sheet
-from worker.geometry.cells import cell_means, cells_of
+from worker.geometry.cells import cell_means, cells_of, nearest_of
 
 
 def test_the_two_sides_of_a_thin_wall_keep_their_colours() -> None:
@@ -21,3 +22,12 @@ def test_a_cell_without_samples_takes_the_nearest_colour() -> None:
     cells = cells_of(centres[:2], normals[:2], centres, normals, turn=1.0)
     means = cell_means(np.array([[1.0], [2.0]]), cells)
     np.testing.assert_array_equal(means, [[1.0], [2.0], [2.0]])
+
+
+def test_the_nearest_is_the_nearest_in_all_coordinates_near_and_far() -> None:
+    generator = np.random.default_rng(0)
+    points, centres = 10 * generator.uniform(size=(500, 6)), 10 * generator.uniform(size=(400, 6))
+    points[0] = 1e4  # far outside
+    for reach in (0.5, 3.0, 30.0):
+        found = nearest_of(points, centres, reach)
+        np.testing.assert_array_equal(found, cdist(points, centres).argmin(axis=1))

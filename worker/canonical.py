@@ -5,11 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from worker.arrays import FloatArray, IntArray
-from worker.geometry.areas import face_vectors, unit, vertex_normals
+from worker.geometry.areas import face_vectors, norms, unit, vertex_normals
 from worker.geometry.cells import Cells, cell_means, cells_of
 from worker.geometry.colour import look_up_colours, srgb_to_lab
 from worker.geometry.repair import Repaired
 from worker.geometry.resampling import edge_of, normalise_area, resample, sample_surface
+from worker.geometry.texels import interpolate
 from worker.parameters import Parameters
 from worker.reading.mesh import Mesh
 
@@ -61,8 +62,8 @@ def stretch_canvas(repaired: Repaired, parameters: Parameters) -> Canvas:
     vertices, faces = resample(repaired.vertices, repaired.faces, area, n_vertices)
     source = normalise_area(repaired.vertices, repaired.faces, area)
     indices, barycentrics = sample_surface(source, repaired.faces, parameters.colour_samples)
-    vectors = face_vectors(source, repaired.faces)
-    footprints = area / parameters.colour_samples / np.linalg.norm(vectors, axis=1)[indices]
+    sampled = face_vectors(source, repaired.faces[indices])  # (k, 3)
+    footprints = area / parameters.colour_samples / norms(sampled)
     sample_faces, sample_places = _in_source(repaired, indices, barycentrics)
     return Canvas(
         vertices=vertices,
@@ -71,8 +72,8 @@ def stretch_canvas(repaired: Repaired, parameters: Parameters) -> Canvas:
         sample_places=sample_places,
         footprints=np.minimum(footprints, 1.0),
         cells=cells_of(
-            np.einsum("kc,kcd->kd", barycentrics, source[repaired.faces[indices]]),
-            unit(vectors)[indices],
+            interpolate(source[repaired.faces], indices, barycentrics),
+            unit(sampled),
             vertices,
             vertex_normals(vertices, faces),
             edge_of(area, n_vertices),

@@ -1,36 +1,44 @@
 """Collapsing short edges: fewer vertices, evenly spread, close to the surface.
 
-Many edges are collapsed in one round, the shortest of their neighbourhoods, far enough apart not to
-touch one another's triangles; a new vertex minimises the quadric error of Garland and Heckbert (1997).
+The shortest edges go first, level by level; a new vertex minimises the quadric error of Garland and
+Heckbert (1997).
 """
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from worker.arrays import BoolArray, FloatArray, IntArray
-from worker.geometry.areas import face_vectors, norms, unit
-from worker.geometry.edges import Edges, find_edges, lengths_of
+from worker.compiled import compiled
+from worker.geometry.edges import find_edges
+from worker.geometry.quadrics import plane_quadrics
 
-SHARE = 0.4  # of the edges, the shortest, may collapse in a round
-SHUFFLE = 1.3  # how much longer an edge may look by chance
-PENALTY = 2.0  # by which the edges at a vertex look longer after each refused collapse
-GIVE_UP = 1e3  # penalty from which an edge is left alone
+MANY = 4  # times the vertices wanted, above which levels are coarser
+COARSE, FINE = 1.25, 1.1  # growth of a level's length
+SCATTER = 8  # every so manieth vertex is visited in turn, as the last level ends amid a visit
+PENALTY = 2.0  # by which the squares of edges at a vertex look longer after each refused collapse
+GIVE_UP = 1e4  # penalty from which an edge is left alone
 MIDDLE = 1e-2  # pull of the middle of the edge, relative to the quadric
+TURN = 0.2  # cosine of the largest turn of a triangle, about 80°
 
 
-@dataclass(eq=False)
-class _Surface:
-    """What the rounds change."""
+class _Surface(NamedTuple):
+    """What collapses change. Lists of the faces around a vertex are linked, so that two join in one step."""
 
     vertices: FloatArray  # (n, 3)
     faces: IntArray  # (m, 3)
-    quadrics: FloatArray  # (n, 3, 4): the normal equations of the squared distance to the planes around
+    present: BoolArray  # (m,), faces that are left
+    quadrics: FloatArray  # (n, 9), as from `plane_quadrics`
+    border: BoolArray  # (n,), whether the vertex lies on an open edge
     penalties: FloatArray  # (n,), 1 or more
+    marks: IntArray  # (n,), the number of the last search that met a vertex
+    first: IntArray  # (n,), the first corner 3 f + k at a vertex; −1 where it is gone
+    last: IntArray  # (n,)
+    following: IntArray  # (3 m,), the next corner at the same vertex, or −1
 
 
 def collapse_short_edges(
-    vertices: FloatArray, faces: IntArray, n_vertices: int, longest: float = np.inf, least: float = 0.0
+    vertices: FloatArray, faces: IntArray, n_vertices: int, longest: float = np.inf
 ) -> tuple[FloatArray, IntArray]:
     """Collapse short edges until few enough vertices are left.
 
@@ -45,189 +53,280 @@ def collapse_short_edges(
         How many vertices to keep. More are kept where the topology does not allow so few.
     longest : float
         Edges over this length stay.
-    least : float
-        The share of the vertices that a round must remove to be followed by another.
 
     Returns
     -------
     vertices : (n', 3) array
     faces : (m', 3) array
     """
-    quadrics = _quadrics(vertices, faces)
-    surface = _Surface(vertices.copy(), faces, quadrics, np.ones(len(vertices)))
-    while len(surface.vertices) > n_vertices:
-        edges = find_edges(surface.faces)
-        chosen = _choose(surface, edges, len(surface.vertices) - n_vertices, longest)
-        if len(chosen) <= least * len(surface.vertices):
-            break
-        _collapse(surface, edges.ends[chosen])
-    return surface.vertices, surface.faces
-
-
-def _quadrics(vertices: FloatArray, faces: IntArray) -> FloatArray:
-    """Sum at each vertex the squared distances to the planes of its faces and through its boundary edges."""
-    vectors = face_vectors(vertices, faces)
-    normals = unit(vectors)
+    if len(vertices) <= n_vertices:
+        return vertices, faces
     edges = find_edges(faces)
-    face, corner = np.nonzero(edges.n_faces[edges.of_faces] == 1)
-    start, end = faces[face, corner], faces[face, (corner + 1) % 3]
-    along = vertices[end] - vertices[start]
-    across = unit(np.cross(along, normals[face]))
-    owners = [*faces.T, start, end]
-    planes = [_planes(vertices[faces[:, 0]], normals, norms(vectors))] * 3
-    planes += [_planes(vertices[start], across, np.sum(along**2, axis=1))] * 2
-    return _sums(np.concatenate(owners), np.concatenate(planes, axis=1), len(vertices))
+    border = np.zeros(len(vertices), dtype=np.bool_)
+    border[edges.ends[edges.n_faces == 1]] = True
+    quadrics = plane_quadrics(vertices, faces, (edges.n_faces == 1)[edges.of_faces])
+    surface = _linked(vertices.copy(), faces.copy(), quadrics, border)
+    if len(vertices) > MANY * n_vertices:
+        _run(surface, MANY * n_vertices, longest**2, COARSE**2, 1)
+        surface = _linked(*_compact(surface))
+    _run(surface, n_vertices, longest**2, FINE**2, SCATTER)
+    return _compact(surface)[:2]
 
 
-def _planes(points: FloatArray, normals: FloatArray, weights: FloatArray) -> FloatArray:
-    """Return the entries 11, 12, 13, 22, 23, 33, 14, 24, 34 of the (3, 4) equations of planes; (9, p)."""
-    x, y, z = normals.T
-    offsets = np.sum(normals * points, axis=1)  # n·x = offset on the plane
-    entries = [x * x, x * y, x * z, y * y, y * z, z * z, offsets * x, offsets * y, offsets * z]
-    return np.stack(entries) * weights
+def _linked(vertices: FloatArray, faces: IntArray, quadrics: FloatArray, border: BoolArray) -> _Surface:
+    n = len(vertices)
+    surface = _Surface(
+        vertices=vertices,
+        faces=faces,
+        present=np.ones(len(faces), dtype=np.bool_),
+        quadrics=quadrics,
+        border=border,
+        penalties=np.ones(n),
+        marks=np.full(n, -1),
+        first=np.full(n, -1),
+        last=np.full(n, -1),
+        following=np.full(faces.size, -1),
+    )
+    _link(surface)
+    return surface
 
 
-def _sums(owners: IntArray, planes: FloatArray, n_vertices: int) -> FloatArray:
-    """Add up the equations of the planes that each vertex owns; (n, 3, 4)."""
-    sums = [np.bincount(owners, entry, n_vertices) for entry in planes]
-    places = [0, 1, 2, 6, 1, 3, 4, 7, 2, 4, 5, 8]  # of the entries, row by row
-    rows = np.stack([sums[place] for place in places], axis=1)  # (n, 12)
-    return rows.reshape(-1, 3, 4).astype(np.float64)
+def _compact(surface: _Surface) -> tuple[FloatArray, IntArray, FloatArray, BoolArray]:
+    """Drop what is gone; return vertices, faces, quadrics, border."""
+    faces = surface.faces[surface.present]
+    named = np.zeros(len(surface.vertices), dtype=np.bool_)
+    named[faces] = True
+    new = np.cumsum(named) - 1
+    return surface.vertices[named], new[faces], surface.quadrics[named], surface.border[named]
 
 
-def _choose(surface: _Surface, edges: Edges, most: int, longest: float) -> IntArray:
-    """Pick the shortest edges that are alone in their neighbourhood and may collapse."""
-    worst = np.maximum(*surface.penalties[edges.ends.T])
-    lengths = lengths_of(surface.vertices, edges)
-    # Where lengths are equal or rise along the surface, few edges would be shorter than all around them.
-    shuffle = np.random.default_rng(len(lengths)).uniform(1.0, SHUFFLE, len(lengths))
-    costs = np.where((worst > GIVE_UP) | (lengths > longest), np.inf, lengths * worst * shuffle)
-    shortest = _ascending(costs)[: max(1, int(SHARE * len(costs)))]
-    shortest = shortest[np.isfinite(costs[shortest])]
-    chosen = shortest[_alone(edges.ends, edges.ends[shortest], len(surface.vertices))]
-    keeps = _keeps_topology(surface, edges, chosen)
-    surface.penalties[edges.ends[chosen[~keeps]]] *= PENALTY
-    if keeps.any() or len(chosen) == 0:
-        return np.asarray(chosen[keeps][:most])
-    return _choose(surface, edges, most, longest)
+@compiled
+def _link(surface: _Surface) -> None:
+    for corner in range(surface.faces.size):
+        _append(surface, surface.faces[corner // 3, corner % 3], corner)
 
 
-def _ascending(costs: FloatArray) -> IntArray:
-    """Order costs, equal ones as they stand, save infinite ones; ties are rare, stability slow."""
-    order = np.argsort(costs)
-    ordered = costs[order]
-    ties = (ordered[1:] == ordered[:-1]) & np.isfinite(ordered[1:])
-    return np.argsort(costs, kind="stable") if ties.any() else order
+@compiled
+def _run(surface: _Surface, n_vertices: int, longest: float, growth: float, scatter: int) -> None:
+    """Collapse edges up to a level, then up to a higher one; all in squared lengths."""
+    left, searches, point = np.count_nonzero(surface.first >= 0), 0, np.empty(3)
+    level = min(_mean_square(surface) / 4.0, longest)
+    while left > n_vertices:
+        shortest = np.inf  # of the edges beyond this level
+        for start in range(scatter):
+            for vertex in range(start, len(surface.first), scatter):
+                while surface.first[vertex] >= 0:
+                    other, cost = _nearest(surface, vertex, longest)
+                    if cost > level:
+                        shortest = min(shortest, cost)
+                        break
+                    searches += 1
+                    if _try(surface, vertex, other, point, searches):
+                        left -= 1
+                        if left == n_vertices:
+                            return
+        if shortest == np.inf:
+            return
+        level = max(level, shortest) * growth
 
 
-def _alone(ends: IntArray, candidates: IntArray, n_vertices: int) -> BoolArray:
-    """Tell which candidates (sorted, best first) no better one touches, nor touches a neighbour of."""
-    ranks = np.arange(len(candidates))
-    best = np.full(n_vertices, len(candidates))
-    best[candidates[::-1].ravel()] = np.repeat(ranks[::-1], 2)  # of several, the last one stays
-    at_start, at_end = best[ends[:, 0]], best[ends[:, 1]]
-    beaten = np.zeros(n_vertices, dtype=np.bool_)
-    beaten[ends[at_end < at_start, 0]] = True
-    beaten[ends[at_start < at_end, 1]] = True
-    return np.asarray(((best[candidates] == ranks[:, None]) & ~beaten[candidates]).all(axis=1))
+@compiled
+def _mean_square(surface: _Surface) -> float:
+    total = 0.0
+    for face in range(len(surface.faces)):
+        for corner in range(3):
+            total += _square(surface, surface.faces[face, corner], surface.faces[face, (corner + 1) % 3])
+    return total / surface.faces.size
 
 
-def _keeps_topology(surface: _Surface, edges: Edges, chosen: IntArray) -> BoolArray:
+@compiled
+def _square(surface: _Surface, start: int, end: int) -> float:
+    x = surface.vertices[start, 0] - surface.vertices[end, 0]
+    y = surface.vertices[start, 1] - surface.vertices[end, 1]
+    z = surface.vertices[start, 2] - surface.vertices[end, 2]
+    return float(x * x + y * y + z * z)
+
+
+@compiled
+def _nearest(surface: _Surface, vertex: int, longest: float) -> tuple[int, float]:
+    """Return the neighbour at the end of the edge that looks shortest, and its square; −1 and ∞ for none."""
+    best, least = -1, np.inf
+    corner = surface.first[vertex]
+    while corner >= 0:
+        for place in range(3):
+            other = surface.faces[corner // 3, place]
+            penalty = max(surface.penalties[vertex], surface.penalties[other])
+            if other != vertex and penalty < GIVE_UP:
+                square = _square(surface, vertex, other)
+                if square <= longest and square * penalty < least:
+                    best, least = other, square * penalty
+        corner = surface.following[corner]
+    return best, least
+
+
+@compiled
+def _try(surface: _Surface, kept: int, gone: int, point: FloatArray, search: int) -> bool:
+    """Collapse an edge where that is allowed; otherwise let its surroundings look longer."""
+    allowed = _keeps_topology(surface, kept, gone, 2 * search)
+    if allowed:
+        _settle(surface, kept, gone, point)
+        allowed = not (_turns(surface, kept, gone, point) or _turns(surface, gone, kept, point))
+    if not allowed:
+        surface.penalties[kept] *= PENALTY
+        surface.penalties[gone] *= PENALTY
+        return False
+    surface.vertices[kept] = point
+    surface.quadrics[kept] += surface.quadrics[gone]
+    surface.border[kept] |= surface.border[gone]
+    _merge(surface, kept, gone)
+    return True
+
+
+@compiled
+def _keeps_topology(surface: _Surface, start: int, end: int, mark: int) -> bool:
     """Check the link condition: the ends share as many neighbours as the edge has faces.
 
     Tetrahedra and lone triangles meet it as well, and would vanish.
     """
-    n = len(surface.vertices)
-    ends = edges.ends
-    owners, common = _common_neighbours(ends, ends[chosen], n)
-    shared = np.bincount(owners, minlength=len(chosen))
-    threefold = np.bincount(ends.ravel(), minlength=n) == 3
-    tetrahedron = np.bincount(owners[threefold[common]], minlength=len(chosen)) > 1
-    alone = np.zeros(len(ends), dtype=bool)
-    open_sides = (edges.n_faces == 1)[edges.of_faces.T]  # (3, m)
-    alone[edges.of_faces[open_sides[0] & open_sides[1] & open_sides[2]]] = True
-    boundary = np.zeros(n, dtype=bool)
-    boundary[ends[edges.n_faces == 1]] = True
-    pinches = boundary[ends[chosen]].all(axis=1) & (edges.n_faces[chosen] > 1)
-    return np.asarray((shared == edges.n_faces[chosen]) & ~pinches & ~tetrahedron & ~alone[chosen])
+    n_faces = 0
+    corner = surface.first[start]
+    while corner >= 0:
+        for place in range(3):
+            other = surface.faces[corner // 3, place]
+            surface.marks[other] = mark
+            n_faces += other == end
+        corner = surface.following[corner]
+    if n_faces > 1 and surface.border[start] and surface.border[end]:
+        return False  # two borders would touch
+    surface.marks[start] = surface.marks[end] = mark + 1
+    common, threefold, apex = 0, 0, -1
+    corner = surface.first[end]
+    while corner >= 0:
+        for place in range(3):
+            other = surface.faces[corner // 3, place]
+            if surface.marks[other] == mark:
+                surface.marks[other] = mark + 1
+                common, apex = common + 1, other
+                threefold += _valence(surface, other) == 3
+        corner = surface.following[corner]
+    if common != n_faces or threefold > 1:
+        return False
+    return n_faces > 1 or _n_shared(surface, start, apex) > 1 or _n_shared(surface, end, apex) > 1
 
 
-def _common_neighbours(ends: IntArray, pairs: IntArray, n_vertices: int) -> tuple[IntArray, IntArray]:
-    """List the vertices that edges join to both of a pair; pairs (c, 2) share no vertex.
-
-    Returns
-    -------
-    owners, common : (k,) arrays
-        The pair, and the vertex.
-    """
-    owners = np.full(n_vertices, -1)
-    owners[pairs] = np.arange(len(pairs))[:, None]
-    at_start, at_end = owners[ends[:, 0]], owners[ends[:, 1]]
-    other = at_start != at_end
-    from_start, from_end = (at_start >= 0) & other, (at_end >= 0) & other
-    keys = np.concatenate(
-        [
-            at_start[from_start] * n_vertices + ends[from_start, 1],
-            at_end[from_end] * n_vertices + ends[from_end, 0],
-        ]
-    )
-    keys.sort()
-    both = keys[1:][keys[1:] == keys[:-1]]
-    return both // n_vertices, both % n_vertices
+@compiled
+def _valence(surface: _Surface, vertex: int) -> int:
+    """Count neighbours: as many as faces, one more at a border."""
+    count = int(surface.border[vertex])
+    corner = surface.first[vertex]
+    while corner >= 0:
+        count += 1
+        corner = surface.following[corner]
+    return count
 
 
-def _collapse(surface: _Surface, pairs: IntArray) -> None:
-    """Collapse edges, given by their ends (c, 2), but for those that would turn a triangle over."""
-    targets = _positions(surface, pairs)
-    turns = _turns_over(surface, pairs, targets)
-    surface.penalties[pairs[turns]] *= PENALTY
-    pairs, targets = pairs[~turns], targets[~turns]
-    kept, gone = pairs.T
-    surface.vertices[kept] = targets
-    surface.quadrics[kept] += surface.quadrics[gone]
-    new = np.arange(len(surface.vertices))
-    new[gone] = kept
-    faces = new[surface.faces]
-    a, b, c = faces.T
-    _compact(surface, faces[(a != b) & (b != c) & (c != a)])
+@compiled
+def _n_shared(surface: _Surface, start: int, end: int) -> int:
+    """Count the faces at an edge."""
+    count, corner = 0, surface.first[start]
+    while corner >= 0:
+        for place in range(3):
+            count += surface.faces[corner // 3, place] == end
+        corner = surface.following[corner]
+    return count
 
 
-def _positions(surface: _Surface, pairs: IntArray) -> FloatArray:
-    """Minimise the quadric error, with a slight pull to the middle that settles flat places."""
-    quadrics = surface.quadrics[pairs].sum(axis=1)  # (c, 3, 4)
-    middles = surface.vertices[pairs].mean(axis=1)  # (c, 3)
-    matrices, sides = quadrics[:, :, :3], quadrics[:, :, 3]
-    pull = MIDDLE * np.trace(matrices, axis1=1, axis2=2) + np.finfo(float).tiny
-    matrices = matrices + pull[:, None, None] * np.eye(3)
-    sides = sides + pull[:, None] * middles
-    return np.asarray(np.linalg.solve(matrices, sides[:, :, None])[:, :, 0])
+@compiled
+def _settle(surface: _Surface, kept: int, gone: int, point: FloatArray) -> None:
+    """Minimise the quadric error, pulled slightly to the middle, which settles flat places (Cramer's rule)."""
+    first, second, vertices = surface.quadrics[kept], surface.quadrics[gone], surface.vertices
+    xx, xy, xz = first[0] + second[0], first[1] + second[1], first[2] + second[2]
+    yy, yz, zz = first[3] + second[3], first[4] + second[4], first[5] + second[5]
+    u = (vertices[kept, 0] + vertices[gone, 0]) / 2.0
+    v = (vertices[kept, 1] + vertices[gone, 1]) / 2.0
+    w = (vertices[kept, 2] + vertices[gone, 2]) / 2.0
+    x = first[6] + second[6] - (xx * u + xy * v + xz * w)
+    y = first[7] + second[7] - (xy * u + yy * v + yz * w)
+    z = first[8] + second[8] - (xz * u + yz * v + zz * w)
+    pull = MIDDLE * (xx + yy + zz)
+    xx, yy, zz = xx + pull, yy + pull, zz + pull
+    a, b, c = yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy
+    d, e, f = xx * zz - xz * xz, xy * xz - xx * yz, xx * yy - xy * xy
+    determinant = xx * a + xy * b + xz * c
+    scale = 1.0 / determinant if determinant > 0.0 else 0.0
+    point[0] = u + scale * (a * x + b * y + c * z)
+    point[1] = v + scale * (b * x + d * y + e * z)
+    point[2] = w + scale * (c * x + e * y + f * z)
 
 
-def _turns_over(surface: _Surface, pairs: IntArray, targets: FloatArray) -> BoolArray:
-    """Tell which collapses would turn a remaining triangle by more than about 80°."""
-    owners = np.full(len(surface.vertices), -1)
-    owners[pairs] = np.arange(len(pairs))[:, None]
-    corner_owners = owners[surface.faces]  # (m, 3)
-    a, b, c = (corner_owners >= 0).T
-    moved = np.flatnonzero((a ^ b ^ c) & ~(a & b & c))  # those with one corner
-    faces, face_owners = surface.faces[moved], corner_owners[moved].max(axis=1)
-    before = face_vectors(surface.vertices, faces)
-    vertices = surface.vertices.copy()
-    vertices[pairs] = targets[:, None, :]
-    after = face_vectors(vertices, faces)
-    cosines = np.sum(unit(before) * unit(after), axis=1)
-    flat = ~before.any(axis=1)  # a triangle without area cannot turn over
-    turns = np.zeros(len(pairs), dtype=bool)
-    turns[face_owners[(cosines < 0.2) & ~flat]] = True
-    return turns
+@compiled
+def _turns(surface: _Surface, vertex: int, other: int, point: FloatArray) -> bool:
+    """Tell whether a triangle at one end but not the other would turn too far; one without area cannot."""
+    corner, here = surface.first[vertex], surface.vertices[vertex]
+    while corner >= 0:
+        face = corner // 3
+        start, end = surface.faces[face, (corner + 1) % 3], surface.faces[face, (corner + 2) % 3]
+        if start != other and end != other:
+            x, y, z = _doubled(surface.vertices[start], surface.vertices[end], here)
+            u, v, w = _doubled(surface.vertices[start], surface.vertices[end], point)
+            before, after = x * x + y * y + z * z, u * u + v * v + w * w
+            if before > 0.0 and x * u + y * v + z * w <= TURN * np.sqrt(before * after):
+                return True
+        corner = surface.following[corner]
+    return False
 
 
-def _compact(surface: _Surface, faces: IntArray) -> None:
-    """Drop the vertices that no face names any more."""
-    named = np.zeros(len(surface.vertices), dtype=np.bool_)
-    named[faces] = True
-    used, new = np.flatnonzero(named), np.cumsum(named) - 1
-    surface.faces = new[faces]
-    surface.vertices = surface.vertices[used]
-    surface.quadrics = surface.quadrics[used]
-    surface.penalties = surface.penalties[used]
+@compiled
+def _doubled(a: FloatArray, b: FloatArray, c: FloatArray) -> tuple[float, float, float]:
+    """Return the normal of a triangle, twice as long as its area."""
+    x, y, z = b[0] - a[0], b[1] - a[1], b[2] - a[2]
+    u, v, w = c[0] - a[0], c[1] - a[1], c[2] - a[2]
+    return y * w - z * v, z * u - x * w, x * v - y * u
+
+
+@compiled
+def _merge(surface: _Surface, kept: int, gone: int) -> None:
+    """Let the faces of one vertex name the other, drop those that name both, and calm the surroundings."""
+    surface.following[surface.last[kept]] = surface.first[gone]
+    corner, surface.first[kept], surface.first[gone] = surface.first[kept], -1, -1
+    while corner >= 0:
+        face, following, both = corner // 3, surface.following[corner], 0
+        for place in range(3):
+            if surface.faces[face, place] == gone:
+                surface.faces[face, place] = kept
+            both += surface.faces[face, place] == kept
+        surface.following[corner] = -1
+        if both == 1:
+            _append(surface, kept, corner)
+        elif surface.present[face]:
+            surface.present[face] = False
+            _unlink(surface, face, kept)
+        corner = following
+
+
+@compiled
+def _append(surface: _Surface, vertex: int, corner: int) -> None:
+    if surface.first[vertex] < 0:
+        surface.first[vertex] = corner
+    else:
+        surface.following[surface.last[vertex]] = corner
+    surface.last[vertex] = corner
+    for place in range(3):
+        surface.penalties[surface.faces[corner // 3, place]] = 1.0
+
+
+@compiled
+def _unlink(surface: _Surface, face: int, kept: int) -> None:
+    """Take a face off the list of its vertex that stays as it is."""
+    for place in range(3):
+        vertex = surface.faces[face, place]
+        if vertex != kept:
+            corner, before = surface.first[vertex], -1
+            while corner != 3 * face + place:
+                before, corner = corner, surface.following[corner]
+            if before < 0:
+                surface.first[vertex] = surface.following[corner]
+            else:
+                surface.following[before] = surface.following[corner]
+            if surface.last[vertex] == corner:
+                surface.last[vertex] = before

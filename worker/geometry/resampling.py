@@ -1,16 +1,14 @@
 """From any triangulation to the canonical one: same area, same resolution, evenly spread."""
 
-import fast_simplification
 import numpy as np
 
 from worker.arrays import FloatArray, IntArray
-from worker.geometry.areas import edge_lengths, face_vectors, norms
+from worker.compiled import compiled
+from worker.geometry.areas import edge_lengths
 from worker.geometry.collapse import collapse_short_edges
 from worker.geometry.refinement import split_long_edges
 
-FINE = 4  # meshes over this many times the canonical resolution are thinned by a faster method first
 SHORTEST = 1 / 2  # of a canonical edge: shorter ones go before any is split, so that needles do not multiply
-WORTHWHILE = 0.01  # share of the vertices for which another round of that is run
 LONGEST = 4 / 3  # of a canonical edge: longer ones are split before collapsing (Botsch and Kobbelt 2004)
 SECTION = np.array(
     [0.7548776662466927, 0.5698402909980532]
@@ -20,7 +18,7 @@ SECTION = np.array(
 def normalise_area(vertices: FloatArray, faces: IntArray, area: float) -> FloatArray:
     """Centre a mesh and scale it to a total area; (n, 3)."""
     centred = vertices - vertices.mean(axis=0)
-    total = norms(face_vectors(centred, faces)).sum()
+    total = face_areas(centred, faces).sum()
     return np.asarray(centred * np.sqrt(area / total))
 
 
@@ -50,8 +48,6 @@ def resample(
     faces : (m', 3) array
     """
     vertices = normalise_area(vertices, faces, area)
-    if len(vertices) > FINE * n_vertices:
-        vertices, faces = _thin(vertices, faces, FINE * n_vertices)
     vertices, faces = _refine(vertices, faces, n_vertices, edge_of(area, n_vertices))
     vertices, faces = collapse_short_edges(vertices, faces, n_vertices)
     return normalise_area(vertices, faces, area), faces
@@ -74,9 +70,8 @@ def sample_surface(vertices: FloatArray, faces: IntArray, n_samples: int) -> tup
     face_indices : (n_samples,) array
     barycentrics : (n_samples, 3) array
     """
-    summed = np.cumsum(norms(face_vectors(vertices, faces)))
-    steps = (np.arange(n_samples) + 0.5) * (summed[-1] / n_samples)
-    face_indices = np.minimum(np.searchsorted(summed, steps), len(faces) - 1)
+    summed = np.cumsum(face_areas(vertices, faces))
+    face_indices = _steps(summed, n_samples)
     square = (0.5 + np.arange(1, n_samples + 1)[:, None] * SECTION) % 1.0  # (n_samples, 2)
     square = np.where(square.sum(axis=1, keepdims=True) > 1.0, 1.0 - square, square)
     return face_indices, np.column_stack([1.0 - square.sum(axis=1), square])
@@ -87,19 +82,33 @@ def _refine(
 ) -> tuple[FloatArray, IntArray]:
     """Split long edges by and by, and drop short ones on the way: needles would become ever more needles."""
     current = float(edge_lengths(vertices, faces).max())
-    vertices, faces = collapse_short_edges(vertices, faces, n_vertices, SHORTEST * edge, WORTHWHILE)
+    vertices, faces = collapse_short_edges(vertices, faces, n_vertices, SHORTEST * edge)
     while current > LONGEST * edge:
         current = max(current / 2.0, LONGEST * edge)
         vertices, faces = split_long_edges(vertices, faces, current)
-        vertices, faces = collapse_short_edges(vertices, faces, n_vertices, SHORTEST * edge, WORTHWHILE)
+        vertices, faces = collapse_short_edges(vertices, faces, n_vertices, SHORTEST * edge)
     return vertices, faces
 
 
-def _thin(vertices: FloatArray, faces: IntArray, n_vertices: int) -> tuple[FloatArray, IntArray]:
-    """Reduce a very fine mesh by quadric decimation, and drop what that leaves unused."""
-    share = 1.0 - n_vertices / len(vertices)
-    thinned, triangles = fast_simplification.simplify(
-        vertices, faces.astype(np.int32), target_reduction=min(max(share, 0.0), 0.999)
-    )
-    used, inverse = np.unique(triangles, return_inverse=True)
-    return np.asarray(thinned, dtype=np.float64)[used], inverse.reshape(-1, 3).astype(np.int64)
+@compiled
+def face_areas(vertices: FloatArray, faces: IntArray) -> FloatArray:
+    """Return the areas of faces (m, 3); (m,)."""
+    areas = np.empty(len(faces))
+    for face in range(len(faces)):
+        a, b, c = vertices[faces[face, 0]], vertices[faces[face, 1]], vertices[faces[face, 2]]
+        x, y, z = b[0] - a[0], b[1] - a[1], b[2] - a[2]
+        u, v, w = c[0] - a[0], c[1] - a[1], c[2] - a[2]
+        p, q, r = y * w - z * v, z * u - x * w, x * v - y * u
+        areas[face] = np.sqrt(p * p + q * q + r * r) / 2.0
+    return areas
+
+
+@compiled
+def _steps(summed: FloatArray, n_steps: int) -> IntArray:
+    """Return where the middles of equal steps up to the last of some ascending sums lie among these."""
+    places, place = np.empty(n_steps, dtype=np.int64), 0
+    for step in range(n_steps):
+        while place < len(summed) - 1 and summed[place] < (step + 0.5) * (summed[-1] / n_steps):
+            place += 1
+        places[step] = place
+    return places

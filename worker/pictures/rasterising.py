@@ -1,13 +1,13 @@
-"""Which triangle is seen at each pixel: a z-buffer, vectorised over pairs of triangle and pixel."""
+"""Which triangle is seen at each pixel: a z-buffer."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from worker.arrays import FloatArray, IntArray
+from worker.compiled import compiled
 
-CHUNK = 50_000  # pairs of triangle and pixel at a time: few enough for a processor's cache
+FLAT = 1e-12  # squared pixels: a triangle of half that area is seen from its edge
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -39,78 +39,74 @@ def rasterise(pixels: FloatArray, depths: FloatArray, faces: IntArray, size: int
     """
     nearest = np.full(size * size, np.inf)
     owner = np.full(size * size, -1)
-    shares = np.zeros((size * size, 3))
-    frames = _frames(pixels, faces)
-    depths_of = [depths[column] for column in faces.T]
-    for numbers, columns, rows in _pairs(pixels, faces, size):
-        inside, weights = _barycentrics(frames, numbers, columns, rows)
-        numbers, places = numbers[inside], (rows * size + columns)[inside]
-        first, second, third = (of[numbers] * weight for of, weight in zip(depths_of, weights, strict=True))
-        depth = first + second + third
-        np.minimum.at(nearest, places, depth)
-        seen = np.flatnonzero(depth == nearest[places])
-        owner[places[seen]] = numbers[seen]
-        for column, weight in enumerate(weights):
-            shares[places[seen], column] = weight[seen]
+    shares = np.empty((size * size, 3))
+    first, last = _boxes(pixels, faces, size)
+    _draw(pixels, depths, faces, first, last, size, nearest, owner, shares)
     covered = np.flatnonzero(owner >= 0)
     return Fragments(places=covered, faces=owner[covered], barycentrics=shares[covered])
 
 
+@compiled
+def _draw(
+    pixels: FloatArray,
+    depths: FloatArray,
+    faces: IntArray,
+    first: IntArray,
+    last: IntArray,
+    size: int,
+    nearest: FloatArray,
+    owner: IntArray,
+    shares: FloatArray,
+) -> None:
+    """Draw triangle after triangle into the z-buffer; first and last (m, 2) are corners of their boxes."""
+    for face in range(len(faces)):
+        a, b, c = faces[face]
+        left, top = pixels[a, 0], pixels[a, 1]
+        second_x, second_y = pixels[b, 0] - left, pixels[b, 1] - top
+        third_x, third_y = pixels[c, 0] - left, pixels[c, 1] - top
+        area = second_x * third_y - second_y * third_x  # twice that, signed
+        if abs(area) < FLAT:
+            continue  # no point is inside
+        for row in range(first[face, 1], last[face, 1] + 1):
+            for column in range(first[face, 0], last[face, 0] + 1):
+                x, y = column + 0.5 - left, row + 0.5 - top
+                to_second = (x * third_y - y * third_x) / area
+                to_third = (second_x * y - second_y * x) / area
+                to_first = 1.0 - to_second - to_third
+                if to_first < 0.0 or to_second < 0.0 or to_third < 0.0:
+                    continue
+                depth = to_first * depths[a] + to_second * depths[b] + to_third * depths[c]
+                place = row * size + column
+                if depth <= nearest[place]:
+                    nearest[place], owner[place] = depth, face
+                    shares[place, 0], shares[place, 1], shares[place, 2] = to_first, to_second, to_third
+
+
+@compiled
+def doubled_areas(pixels: FloatArray, faces: IntArray, chosen: IntArray) -> FloatArray:
+    """Return twice the areas of the chosen triangles as they are seen, in squared pixels; (k,)."""
+    areas = np.empty(len(chosen))
+    for place, face in enumerate(chosen):
+        a, b, c = pixels[faces[face, 0]], pixels[faces[face, 1]], pixels[faces[face, 2]]
+        areas[place] = abs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+    return areas
+
+
 def covered_pixels(pixels: FloatArray, faces: IntArray, size: int) -> int:
     """Return how many pairs of triangle and pixel `rasterise` has to look at."""
-    return int(_boxes(pixels, faces, size)[2].prod(axis=1).sum())
+    first, last = _boxes(pixels, faces, size)
+    return int(np.maximum(last - first + 1, 0).prod(axis=1).sum())
 
 
-def _boxes(pixels: FloatArray, faces: IntArray, size: int) -> tuple[IntArray, IntArray, IntArray]:
-    """Return the first and last pixel and the number of pixels (m, 2), whose centres a bounding box holds."""
-    a, b, c = (pixels[column] for column in faces.T)  # each (m, 2)
-    lower, upper = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
-    first = np.clip(np.ceil(lower - 0.5), 0, size).astype(np.int64)
-    last = np.clip(np.floor(upper - 0.5), -1, size - 1).astype(np.int64)
-    return first, last, np.maximum(last - first + 1, 0)
-
-
-def _pairs(pixels: FloatArray, faces: IntArray, size: int) -> Iterator[tuple[IntArray, IntArray, IntArray]]:
-    """Yield triangles, columns and rows: the pixels of bounding boxes, at most about a chunk at once."""
-    first, _, counts = _boxes(pixels, faces, size)
-    ends = np.cumsum(counts.prod(axis=1))
-    start = 0
-    while start < len(ends):
-        done = ends[start - 1] if start else 0
-        stop = max(int(np.searchsorted(ends, done + CHUNK)), start + 1)
-        boxes, lines = _steps(counts[start:stop, 1])  # each box is cut into lines of pixels
-        boxes += start
-        of_pixels, steps = _steps(counts[boxes, 0])
-        numbers = boxes[of_pixels]
-        yield numbers, first[numbers, 0] + steps, (first[boxes, 1] + lines)[of_pixels]
-        start = stop
-
-
-def _steps(counts: IntArray) -> tuple[IntArray, IntArray]:
-    """Count from 0 for each entry; return the entry and the count, (sum of counts,) each."""
-    owners = np.repeat(np.arange(len(counts)), counts)
-    starts = np.cumsum(counts) - counts
-    return owners, np.arange(len(owners)) - starts[owners]
-
-
-def _frames(pixels: FloatArray, faces: IntArray) -> list[FloatArray]:
-    """Return what barycentric coordinates need: first corner, the sides from it, area; (m,) each."""
-    a, b, c = (pixels[column] for column in faces.T)  # each (m, 2)
-    (second_x, second_y), (third_x, third_y) = (b - a).T, (c - a).T
-    area = second_x * third_y - second_y * third_x  # twice that, signed
-    area[np.abs(area) < 1e-12] = np.nan  # no point is inside
-    columns = (a[:, 0], a[:, 1], second_x, second_y, third_x, third_y, area)
-    return [np.ascontiguousarray(column) for column in columns]
-
-
-def _barycentrics(
-    frames: list[FloatArray], numbers: IntArray, columns: IntArray, rows: IntArray
-) -> tuple[IntArray, list[FloatArray]]:
-    """Return which pixels (p,) have their middle inside their triangle, and its barycentrics there."""
-    left, top, second_x, second_y, third_x, third_y, area = (column.take(numbers) for column in frames)
-    x, y = columns + 0.5 - left, rows + 0.5 - top
-    to_second = (x * third_y - y * third_x) / area
-    to_third = (second_x * y - second_y * x) / area
-    to_first = 1.0 - to_second - to_third
-    inside = np.flatnonzero((to_first >= 0) & (to_second >= 0) & (to_third >= 0))
-    return inside, [weight.take(inside) for weight in (to_first, to_second, to_third)]
+@compiled
+def _boxes(pixels: FloatArray, faces: IntArray, size: int) -> tuple[IntArray, IntArray]:
+    """Return the first and last pixel (m, 2) whose centres lie in each triangle's bounding box."""
+    first = np.empty((len(faces), 2), dtype=np.int64)
+    last = np.empty((len(faces), 2), dtype=np.int64)
+    for face in range(len(faces)):
+        for axis in range(2):
+            a, b, c = pixels[faces[face, 0], axis], pixels[faces[face, 1], axis], pixels[faces[face, 2], axis]
+            lower, upper = min(a, b, c) - 0.5, max(a, b, c) - 0.5
+            first[face, axis] = int(min(max(np.ceil(lower), 0.0), size))
+            last[face, axis] = int(min(max(np.floor(upper), -1.0), size - 1.0))
+    return first, last

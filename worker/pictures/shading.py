@@ -3,7 +3,8 @@
 import numpy as np
 
 from worker.arrays import FloatArray, IntArray
-from worker.geometry.areas import face_vectors, unit, vertex_normals
+from worker.compiled import compiled
+from worker.geometry.areas import face_vectors, unit
 
 CREASE = 0.75  # cosine of the turn beyond which an edge is shown as sharp
 LAMP = np.array([-0.45, 0.65, 0.85])  # direction to the light: right, up, towards the camera
@@ -28,14 +29,34 @@ def corner_normals(vertices: FloatArray, faces: IntArray, chosen: IntArray) -> F
         The area-weighted mean around the vertex, or the triangle's own normal beyond a crease.
     """
     vectors = face_vectors(vertices, faces)  # (m, 3)
-    smooth = vertex_normals(vertices, faces)
-    named = np.zeros(len(faces), dtype=np.bool_)
-    named[chosen] = True
-    distinct = np.flatnonzero(named)  # a face is seen at many pixels
-    own, around = unit(vectors[distinct])[:, None], smooth[faces[distinct]]  # (d, 1, 3), (d, 3, 3)
-    sharp = (own * around).sum(-1, keepdims=True) < CREASE
-    normals = np.where(sharp, own, around)
-    return np.asarray(normals[(np.cumsum(named) - 1)[chosen]])
+    smooth = np.zeros_like(vertices)
+    _add_around(vectors, faces, smooth)
+    return _sharpened(vectors, unit(smooth), faces, chosen)
+
+
+@compiled
+def _add_around(vectors: FloatArray, faces: IntArray, sums: FloatArray) -> None:
+    """Add the vector of each face to its three vertices."""
+    for face in range(len(faces)):
+        for corner in range(3):
+            for axis in range(3):
+                sums[faces[face, corner], axis] += vectors[face, axis]
+
+
+@compiled
+def _sharpened(vectors: FloatArray, smooth: FloatArray, faces: IntArray, chosen: IntArray) -> FloatArray:
+    """Take the smooth normal at each corner of the chosen faces, or the face's own beyond a crease."""
+    normals = np.empty((len(chosen), 3, 3))
+    for place, face in enumerate(chosen):
+        x, y, z = vectors[face, 0], vectors[face, 1], vectors[face, 2]
+        length = np.sqrt(x * x + y * y + z * z)
+        scale = 1.0 / length if length > 0.0 else 0.0
+        for corner in range(3):
+            u, v, w = smooth[faces[face, corner]]
+            if scale * (x * u + y * v + z * w) < CREASE:
+                u, v, w = scale * x, scale * y, scale * z
+            normals[place, corner, 0], normals[place, corner, 1], normals[place, corner, 2] = u, v, w
+    return normals
 
 
 def shade(colours: FloatArray, normals: FloatArray, axes: FloatArray) -> FloatArray:
@@ -55,10 +76,24 @@ def shade(colours: FloatArray, normals: FloatArray, axes: FloatArray) -> FloatAr
     (k, 3) array
         sRGB in 0…1.
     """
-    right, up, towards = (unit(normals) @ axes.T).T  # each (k,)
-    sides = np.where(towards < 0, -1.0, 1.0)
-    lamp = LAMP / np.linalg.norm(LAMP)
-    facing = sides * (right * lamp[0] + up * lamp[1] + towards * lamp[2])
-    lit = np.clip((facing + WRAP) / (1 + WRAP), 0.0, 1.0)
-    brightness = AMBIENT + SKY * sides * up + (1.04 - AMBIENT) * lit
-    return np.asarray(np.clip(colours * brightness[:, None], 0.0, 1.0))
+    return _lit(colours, normals, axes, LAMP / np.linalg.norm(LAMP))
+
+
+@compiled
+def _lit(colours: FloatArray, normals: FloatArray, axes: FloatArray, lamp: FloatArray) -> FloatArray:
+    shaded = np.empty_like(colours)
+    for place in range(len(colours)):
+        x, y, z = normals[place]
+        length = np.sqrt(x * x + y * y + z * z)
+        scale = 1.0 / length if length > 0.0 else 0.0
+        if axes[2, 0] * x + axes[2, 1] * y + axes[2, 2] * z < 0.0:
+            scale = -scale
+        right = scale * (axes[0, 0] * x + axes[0, 1] * y + axes[0, 2] * z)
+        up = scale * (axes[1, 0] * x + axes[1, 1] * y + axes[1, 2] * z)
+        towards = scale * (axes[2, 0] * x + axes[2, 1] * y + axes[2, 2] * z)
+        facing = right * lamp[0] + up * lamp[1] + towards * lamp[2]
+        lit = min(max((facing + WRAP) / (1.0 + WRAP), 0.0), 1.0)
+        brightness = AMBIENT + SKY * up + (1.04 - AMBIENT) * lit
+        for channel in range(3):
+            shaded[place, channel] = min(max(colours[place, channel] * brightness, 0.0), 1.0)
+    return shaded

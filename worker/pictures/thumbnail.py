@@ -6,10 +6,12 @@ import numpy as np
 from PIL import Image
 
 from worker.arrays import ByteArray, FloatArray, IntArray
+from worker.compiled import compiled
 from worker.geometry.colour import look_up_colours
 from worker.geometry.repair import Repaired
+from worker.geometry.texels import interpolate
 from worker.pictures.camera import View, look_at
-from worker.pictures.rasterising import Fragments, covered_pixels, rasterise
+from worker.pictures.rasterising import Fragments, covered_pixels, doubled_areas, rasterise
 from worker.pictures.shading import corner_normals, shade
 from worker.reading.mesh import Mesh
 
@@ -38,8 +40,10 @@ def thumbnail(mesh: Mesh, repaired: Repaired, size: int = 256) -> bytes:
     fragments = rasterise(view.pixels, view.depths, repaired.faces, side)
     colours = _surface_colours(mesh, repaired, view, fragments)
     normals = corner_normals(repaired.vertices, repaired.faces, fragments.faces)  # (k, 3, 3)
-    seen = np.einsum("kc,kcd->kd", fragments.barycentrics, normals)
-    return _png(_canvas(shade(colours, seen, view.axes), fragments.places, side), size)
+    seen = interpolate(normals, np.arange(len(normals)), fragments.barycentrics)
+    return _png(
+        _averaged(shade(colours, seen, view.axes), fragments.places, side, max(side // size, 1)), size
+    )
 
 
 def _fitting_view(repaired: Repaired, side: int) -> tuple[View, int]:
@@ -52,34 +56,33 @@ def _fitting_view(repaired: Repaired, side: int) -> tuple[View, int]:
 
 
 def _surface_colours(mesh: Mesh, repaired: Repaired, view: View, fragments: Fragments) -> FloatArray:
-    sources = repaired.source_faces[fragments.faces]
-    order = repaired.source_corners[fragments.faces]  # (k, 3)
-    barycentrics = np.zeros_like(fragments.barycentrics)
-    np.put_along_axis(barycentrics, order, fragments.barycentrics, axis=1)
-    first, second, third = np.moveaxis(view.pixels[repaired.faces[fragments.faces]], 1, 0)  # each (k, 2)
-    (a, b), (c, d) = (second - first).T, (third - first).T
-    footprints = np.minimum(
-        2.0 / np.maximum(np.abs(a * d - b * c), 1e-12), 1.0
-    )  # one pixel's share of the face
-    return look_up_colours(mesh, sources, barycentrics, footprints)
+    places = fragments.barycentrics.copy()
+    turned = repaired.source_corners[fragments.faces, 1] == 2  # corners 0 2 1
+    places[turned] = places[turned][:, [0, 2, 1]]
+    shares = 2.0 / np.maximum(doubled_areas(view.pixels, repaired.faces, fragments.faces), 1e-12)
+    footprints = np.minimum(shares, 1.0)  # one pixel's share of the face
+    return look_up_colours(mesh, repaired.source_faces[fragments.faces], places, footprints)
 
 
-def _canvas(colours: FloatArray, places: IntArray, side: int) -> FloatArray:
-    canvas = np.zeros((side * side, 4))
-    canvas[places, :3], canvas[places, 3] = colours, 1.0
-    return canvas.reshape(side, side, 4)
+@compiled
+def _averaged(colours: FloatArray, places: IntArray, side: int, block: int) -> FloatArray:
+    """Average blocks of pixels, covered ones only for the colour; (side / block, side / block, 4), 0…1."""
+    picture = np.zeros((side // block, side // block, 4))
+    for pixel in range(len(places)):
+        row, column = places[pixel] // side // block, places[pixel] % side // block
+        for channel in range(3):
+            picture[row, column, channel] += colours[pixel, channel]
+        picture[row, column, 3] += 1.0
+    for row in range(side // block):
+        for column in range(side // block):
+            for channel in range(3):
+                picture[row, column, channel] /= max(picture[row, column, 3], 1.0)
+            picture[row, column, 3] /= block * block
+    return picture
 
 
-def _png(canvas: FloatArray, size: int) -> bytes:
-    """Average blocks of pixels, covered ones only for the colour, and write them."""
-    side = len(canvas)
-    block = max(side // size, 1)
-    corners = [canvas[row::block, column::block] for row, column in np.ndindex(block, block)]
-    sums = np.sum(corners, axis=0) / block**2
-    alpha = sums[..., 3:]
-    pixels: ByteArray = np.rint(
-        255 * np.concatenate([sums[..., :3] / np.maximum(alpha, 1e-9), alpha], 2)
-    ).astype(np.uint8)
+def _png(averages: FloatArray, size: int) -> bytes:
+    pixels: ByteArray = np.rint(255 * averages).astype(np.uint8)
     picture = Image.fromarray(pixels, "RGBA")
     if len(pixels) != size:
         picture = picture.resize((size, size), Image.Resampling.BILINEAR)

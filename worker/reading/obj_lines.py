@@ -6,12 +6,22 @@ import numpy as np
 
 from worker.arrays import BoolArray, FloatArray, IntArray
 from worker.errors import Code, MeshError
+from worker.reading import plain_text
 from worker.reading.mtl import decode_text
 from worker.reading.obj_corners import Corners, read_corners
 from worker.reading.parsing import parse_floats
 from worker.reading.words import Words, split_words
 
 _KNOWN = {b"v", b"vt", b"vn", b"vp", b"f", b"fo", b"l", b"p", b"o", b"g", b"s", b"mtllib", b"usemtl"}
+_PLAIN = {  # words that stand for all lines of a kind
+    b"v": plain_text.VERTEX,
+    b"vt": plain_text.UV,
+    b"f": plain_text.FACE,
+    b"usemtl": plain_text.MATERIAL,
+    b"mtllib": plain_text.LIBRARY,
+    b"o": plain_text.OTHER,
+    b"#": plain_text.COMMENT,
+}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -34,7 +44,6 @@ class Block:
 class _Lines:
     """Words by line."""
 
-    text: bytes
     words: Words  # (k,)
     firsts: IntArray  # (l,), the word that begins each line that is not blank
     line_of: IntArray  # (k,), index into firsts
@@ -56,6 +65,37 @@ def read_block(text: bytes, first_line: int) -> Block:
     MeshError
         BAD_NUMBER, BAD_DATA
     """
+    return read_plain(text) or read_any(text, first_line)
+
+
+def read_plain(text: bytes) -> Block | None:
+    """Read lines as `read_any` does, ten times as fast, or None where one of them is unusual."""
+    lines = plain_text.room_for(len(text))
+    if not plain_text.scan_obj(np.frombuffer(text, dtype=np.uint8), lines):
+        return None
+    kinds = lines.kinds.tolist()
+    corners = lines.corners[: kinds[plain_text.NONE]]
+    counts, vertices_before, uvs_before, materials = lines.faces[: kinds[plain_text.FACE]].T.copy()
+    named = lines.names[: kinds[plain_text.MATERIAL] + kinds[plain_text.LIBRARY]]
+    vertices = lines.vertices[: kinds[plain_text.VERTEX]].copy()
+    return Block(
+        positions=vertices[:, :3],
+        colours=vertices[:, 3:],
+        uvs=lines.uvs[: kinds[plain_text.UV]].copy(),
+        corners=Corners(
+            vertices=corners[:, 0].copy(), uvs=corners[:, 1].copy(), has_uv=corners[:, 1] != 0, counts=counts
+        ),
+        vertices_before=vertices_before,
+        uvs_before=uvs_before,
+        materials=_rests(text, named[named[:, 0] == plain_text.MATERIAL, 1]),
+        material_of=materials - 1,
+        libraries=_rests(text, named[named[:, 0] == plain_text.LIBRARY, 1]),
+        keywords=frozenset(word for word, kind in _PLAIN.items() if kinds[kind]),
+    )
+
+
+def read_any(text: bytes, first_line: int) -> Block:
+    """Read lines of every form, and name the one that cannot be read."""
     lines = _split_lines(text, first_line)
     vertex, uv, face = lines.of(b"v"), lines.of(b"vt"), lines.of(b"f")
     vertices = _rows(lines, vertex, least=3, most=6, absent=np.nan)
@@ -69,9 +109,9 @@ def read_block(text: bytes, first_line: int) -> Block:
         corners=read_corners(words[lines.argument & face[lines.line_of]], words.lines[lines.firsts[faces]]),
         vertices_before=np.cumsum(vertex, dtype=np.int64)[faces],
         uvs_before=np.cumsum(uv, dtype=np.int64)[faces],
-        materials=_rests(lines, material_lines),
+        materials=_rests(text, words.ends[lines.firsts[material_lines]]),
         material_of=np.searchsorted(material_lines, faces) - 1,
-        libraries=_rests(lines, np.flatnonzero(lines.of(b"mtllib"))),
+        libraries=_rests(text, words.ends[lines.firsts[lines.of(b"mtllib")]]),
         keywords=frozenset(lines.numbers),
     )
 
@@ -91,7 +131,6 @@ def _split_lines(text: bytes, first_line: int) -> _Lines:
     argument = seen == (seen - hashes)[firsts][line_of]
     argument[firsts] = False
     return _Lines(
-        text=text,
         words=words,
         firsts=firsts,
         line_of=line_of,
@@ -130,10 +169,10 @@ def _rows(lines: _Lines, chosen: BoolArray, *, least: int, most: int, absent: fl
     return table
 
 
-def _rests(lines: _Lines, chosen: IntArray) -> tuple[str, ...]:
-    """Return what stands after the keyword on each chosen line."""
-    ends = lines.words.ends[lines.firsts[chosen]].tolist()
-    return tuple(decode_text(lines.text[end : _line_end(lines.text, end)]).strip() for end in ends)
+def _rests(text: bytes, ends: IntArray) -> tuple[str, ...]:
+    """Return what stands on the lines after keywords that end at the given places."""
+    found = (text[end : _line_end(text, end)] for end in ends.tolist())
+    return tuple(decode_text(rest).strip() for rest in found)
 
 
 def _line_end(text: bytes, start: int) -> int:

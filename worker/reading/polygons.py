@@ -37,6 +37,8 @@ def triangulate(vertices: FloatArray, corners: IntArray, counts: IntArray) -> tu
         raise MeshError(
             Code.TOO_COMPLEX, f"One face has {int(counts.max())} corners; at most {LONGEST} are read."
         )
+    if (counts == 3).all():
+        return np.arange(3 * len(counts)).reshape(-1, 3), np.arange(len(counts))
     offsets = np.cumsum(counts) - counts  # (f,)
     triangles, sources = [], []
     for size in np.unique(counts):

@@ -1,0 +1,304 @@
+"""Plain numbers and OBJ lines, read byte by byte; whatever is odd is left to the readers that explain it."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from worker.arrays import ByteArray, FloatArray, IntArray
+from worker.compiled import compiled
+
+POWERS = 10.0 ** np.arange(23)  # exact in double precision
+WHOLE = 2**53  # integers below it are doubles
+LONGEST = 2**62 // 10  # ten times it and a digit fit into 63 bits
+DIGITS = 18  # of a whole number
+
+NONE, OTHER, VERTEX, UV, FACE, MATERIAL, LIBRARY, COMMENT = range(8)  # kinds of lines
+
+
+class PlainLines(NamedTuple):
+    """What the lines of a piece of an OBJ file hold, in arrays that are filled from the start."""
+
+    vertices: FloatArray  # (n, 6), positions and colours; NaN where there is no colour
+    uvs: FloatArray  # (n, 2)
+    corners: IntArray  # (k, 2), vertex and texture coordinate as written; 0 where none is
+    faces: IntArray  # (f, 4): corners; vertices, uvs and materials above it
+    names: IntArray  # (l, 2): kind, and where the keyword ends, of lines with a name
+    kinds: IntArray  # (8,), lines of each kind; NONE counts corners
+
+
+def room_for(n_bytes: int) -> PlainLines:
+    """Return arrays that hold whatever so many bytes of text can say."""
+    size = n_bytes + 1  # the last line may lack its end
+    return PlainLines(
+        vertices=np.empty((size // len("v 0 0 0;") + 1, 6)),
+        uvs=np.empty((size // len("vt 0;") + 1, 2)),
+        corners=np.empty((size // len("1;") + 1, 2), dtype=np.int64),
+        faces=np.empty((size // len("f;") + 1, 4), dtype=np.int64),
+        names=np.empty((size // len("usemtl;") + 1, 2), dtype=np.int64),
+        kinds=np.zeros(8, dtype=np.int64),
+    )
+
+
+@compiled
+def scan_obj(text: ByteArray, lines: PlainLines) -> bool:
+    """Read whole lines of an OBJ file; return whether all of them are plain.
+
+    Parameters
+    ----------
+    text : (n,) array
+        Lines that end with a line feed.
+    lines : PlainLines
+        To be filled.
+    """
+    at, size = 0, len(text)
+    while at < size:
+        at = _skip_blanks(text, at)
+        if at >= size:
+            break
+        if text[at] == 10:
+            at += 1
+            continue
+        end = _word_end(text, at)
+        kind = _kind(text, at, end)
+        if kind == VERTEX:
+            at = _read_row(text, end, lines.vertices[lines.kinds[VERTEX]], 3, np.nan)
+        elif kind == UV:
+            at = _read_row(text, end, lines.uvs[lines.kinds[UV]], 1, 0.0)
+        elif kind == FACE:
+            at = _read_face(text, end, lines)
+        elif kind == NONE:
+            return False
+        else:
+            if kind in (MATERIAL, LIBRARY):
+                place = lines.kinds[MATERIAL] + lines.kinds[LIBRARY]
+                lines.names[place, 0], lines.names[place, 1] = kind, end
+            at = _line_end(text, end)
+        if at < 0:
+            return False
+        lines.kinds[kind] += 1
+    return True
+
+
+@compiled
+def scan_numbers(text: ByteArray, values: FloatArray, lengths: IntArray) -> tuple[int, int]:
+    """Read lines of numbers.
+
+    Parameters
+    ----------
+    text : (n,) array
+    values, lengths : (k,), (l,) arrays
+        Filled with the numbers, and how many stand on each line that is not blank.
+
+    Returns
+    -------
+    n_values, n_lines : int
+        −1 where something is no plain number.
+    """
+    at, n_values, n_lines = 0, 0, 0
+    while at < len(text):
+        at = _skip_blanks(text, at)
+        before = n_values
+        while at < len(text) and text[at] != 10:
+            value, at = _number(text, at)
+            if at < 0:
+                return -1, -1
+            values[n_values] = value
+            n_values += 1
+            at = _skip_blanks(text, at)
+        if n_values > before:
+            lengths[n_lines] = n_values - before
+            n_lines += 1
+        at += 1
+    return n_values, n_lines
+
+
+@compiled
+def _skip_blanks(text: ByteArray, at: int) -> int:
+    while at < len(text) and (text[at] == 32 or (text[at] != 10 and 9 <= text[at] <= 13)):
+        at += 1
+    return at
+
+
+@compiled
+def _word_end(text: ByteArray, at: int) -> int:
+    while at < len(text) and text[at] != 32 and not 9 <= text[at] <= 13:
+        at += 1
+    return at
+
+
+@compiled
+def _line_end(text: ByteArray, at: int) -> int:
+    while at < len(text) and text[at] != 10:
+        at += 1
+    return at
+
+
+@compiled
+def _kind(text: ByteArray, start: int, end: int) -> int:
+    """Tell a line by its first word; NONE for those that are left to others."""
+    first, length = text[start], end - start
+    if first == ord("#"):
+        return COMMENT
+    if length == 1:
+        if first == ord("v"):
+            return VERTEX
+        if first == ord("f"):
+            return FACE
+        return OTHER if first in (ord("o"), ord("g"), ord("s")) else NONE
+    if length == 2 and first == ord("v"):
+        second = text[start + 1]
+        return UV if second == ord("t") else OTHER if second == ord("n") else NONE
+    if length == 6 and _is(text, start, b"usemtl"):
+        return MATERIAL
+    return LIBRARY if length == 6 and _is(text, start, b"mtllib") else NONE
+
+
+@compiled
+def _is(text: ByteArray, start: int, word: bytes) -> bool:
+    same = True
+    for place in range(len(word)):
+        same = same and text[start + place] == word[place]
+    return same
+
+
+@compiled
+def _read_row(text: ByteArray, at: int, row: FloatArray, least: int, absent: float) -> int:
+    """Read the numbers of a line, as many as the row holds; return where it ends, −1 for an odd one."""
+    count = 0
+    at = _skip_blanks(text, at)
+    while at < len(text) and text[at] != 10 and text[at] != ord("#"):
+        value, at = _number(text, at)
+        if at < 0:
+            return -1
+        if count < len(row):
+            row[count] = value
+        count += 1
+        at = _skip_blanks(text, at)
+    if count < least:
+        return -1
+    if count < len(
+        row
+    ):  # four or five numbers are a point and its weight: only with six does a colour follow
+        row[min(count, 3) if len(row) == 6 else count :] = absent
+    return _line_end(text, at)
+
+
+@compiled
+def _read_face(text: ByteArray, at: int, lines: PlainLines) -> int:
+    first = corner = lines.kinds[NONE]
+    at = _skip_blanks(text, at)
+    while at < len(text) and text[at] != 10 and text[at] != ord("#"):
+        lines.corners[corner, 1] = 0
+        lines.corners[corner, 0], at = _whole(text, at)
+        if at >= 0 and at < len(text) and text[at] == ord("/"):
+            at = _read_rest(text, at + 1, lines.corners[corner])
+        if at < 0 or (at < len(text) and text[at] != 32 and not 9 <= text[at] <= 13):
+            return -1
+        corner += 1
+        at = _skip_blanks(text, at)
+    face = lines.faces[lines.kinds[FACE]]
+    face[0], face[1], face[2], face[3] = (
+        corner - first,
+        lines.kinds[VERTEX],
+        lines.kinds[UV],
+        lines.kinds[MATERIAL],
+    )
+    lines.kinds[NONE] = corner
+    return _line_end(text, at)
+
+
+@compiled
+def _read_rest(text: ByteArray, at: int, corner: IntArray) -> int:
+    """Read what stands after the first slash of a corner; the number of a normal is not looked at."""
+    if at < len(text) and text[at] != ord("/"):
+        corner[1], at = _whole(text, at)
+        if corner[1] == 0:
+            return -1
+    if at >= 0 and at < len(text) and text[at] == ord("/"):
+        at += 1
+        while at < len(text) and (48 <= text[at] <= 57 or text[at] == ord("-")):
+            at += 1
+    return at
+
+
+@compiled
+def _whole(text: ByteArray, at: int) -> tuple[int, int]:
+    """Read a whole number; return it and where it ends, −1 where there is none."""
+    negative = text[at] == ord("-")
+    start = at = at + (negative or text[at] == ord("+"))
+    value = 0
+    while at < len(text) and 48 <= text[at] <= 57 and at - start <= DIGITS:
+        value = 10 * value + (text[at] - 48)
+        at += 1
+    if not 0 < at - start <= DIGITS:
+        return 0, -1
+    return (-value if negative else value), at
+
+
+@compiled
+def _number(text: ByteArray, at: int) -> tuple[float, int]:
+    """Read a decimal number; return it and where its word ends, −1 where it is not plain."""
+    negative = text[at] == ord("-")
+    at += negative or text[at] == ord("+")
+    digits, exponent, n_digits, point = 0, 0, 0, False
+    while at < len(text):
+        byte = text[at]
+        if 48 <= byte <= 57:
+            if digits > LONGEST:
+                return 0.0, -1
+            digits = 10 * digits + (byte - 48)
+            n_digits += 1
+            exponent -= point
+        elif byte == ord(".") and not point:
+            point = True
+        else:
+            break
+        at += 1
+    if n_digits == 0:
+        return 0.0, -1
+    if at < len(text) and (text[at] == ord("e") or text[at] == ord("E")):
+        if at + 1 >= len(text):
+            return 0.0, -1
+        more, at = _whole(text, at + 1)
+        exponent += more
+    if at < 0 or (at < len(text) and text[at] != 32 and not 9 <= text[at] <= 13):
+        return 0.0, -1
+    value, exact = _decimal(digits, exponent)
+    return (-value if negative else value), (at if exact else -1)
+
+
+@compiled
+def _decimal(digits: int, exponent: int) -> tuple[float, bool]:
+    """Return digits · 10^exponent rounded once, as Clinger (1990) does, and whether that is certain."""
+    if digits == 0:
+        return 0.0, True
+    if not -22 <= exponent <= 22:
+        return 0.0, False
+    if digits <= WHOLE:
+        return (digits / POWERS[-exponent] if exponent < 0 else digits * POWERS[exponent]), True
+    if exponent >= 0:
+        return 0.0, False
+    power, high = POWERS[-exponent], float(digits)
+    quotient = high / power
+    product, error = _product(quotient, power)
+    rest = ((high - product) - error) + float(digits - int(high))
+    correction = rest / power  # of the quotient, itself known to about 50 bits
+    value = quotient + correction
+    margin = 1e-13 * abs(correction)
+    return value, quotient + (correction - margin) == quotient + (correction + margin)
+
+
+@compiled
+def _product(first: float, second: float) -> tuple[float, float]:
+    """Return a product and its rounding error (Dekker 1971)."""
+    product = first * second
+    high, low = _halves(first)
+    upper, lower = _halves(second)
+    return product, ((high * upper - product) + high * lower + low * upper) + low * lower
+
+
+@compiled
+def _halves(number: float) -> tuple[float, float]:
+    shifted = 134_217_729.0 * number  # 2^27 + 1
+    high = shifted - (shifted - number)
+    return high, number - high
