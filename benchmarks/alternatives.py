@@ -110,10 +110,11 @@ def colour_weights(_: Typical) -> Iterator[Alternative]:
 
 
 def histograms(typical: Typical) -> Iterator[Alternative]:
-    """Yield bins and smoothing, and vertices' mean colours in place of the surface's own."""
+    """Yield bins and smoothing, vertices' mean colours in place of the surface's own, and bins joined."""
     for variant in HISTOGRAMS:
         smoothed = f"smoothed by {variant.smoothing:g}" if variant.smoothing else "not smoothed"
-        label = f"{variant.n_bins}³ bins, {smoothed}" + ", cell averages" * variant.cells
+        label = f"{variant.n_bins}³ bins, {smoothed}"
+        label += ", cell averages" * variant.cells + ", joined into 8³" * variant.joined
         yield from _compared("`colour-histogram`", HISTOGRAM, label, variant.name, typical)
 
 

@@ -11,7 +11,7 @@ from benchmarks.describing import describe_files
 from index.methods import DEFAULT_METHOD, METHODS
 from index.vocabulary import default_vocabulary
 from service.evaluation.cache import Described
-from service.evaluation.measuring import first_stage
+from service.evaluation.measuring import as_compared, first_stage
 from service.quantisation import quantise
 from service.refining import LANDMARKS, QUERY_LADDER, QueryLandmarks, refine
 from service.samples import make_samples
@@ -44,7 +44,8 @@ def _ranked(query: int, described: list[Description]) -> list[tuple[int, float]]
     """Rank all but the query by the default method; which, and how far."""
     method, vocabulary = METHODS[DEFAULT_METHOD], default_vocabulary()
     shapes = [
-        Described(blocks={**found.blocks, **quantise(found.signatures, vocabulary)}) for found in described
+        as_compared(Described(blocks={**found.blocks, **quantise(found.signatures, vocabulary)}))
+        for found in described
     ]
     distances = first_stage(method, [shapes[query]], shapes)[0]
     found = sorted(

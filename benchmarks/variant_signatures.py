@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.variants import CURVE_BLOCKS, HISTOGRAMS, Curves, Histogram
+from benchmarks.variants import CURVE_BLOCKS, HISTOGRAMS, SHIPPED, Curves, Histogram
 from service.commands.progress import progress_bar
 from service.evaluation.cache import Cache, Described
 from service.evaluation.describing import groups_of
@@ -24,7 +24,7 @@ from worker.arrays import FloatArray, SingleArray
 from worker.canonical import Surface, paint, stretch_canvas
 from worker.describe import in_single_precision
 from worker.descriptors.curves import colour_curves, whiten_curves
-from worker.descriptors.histograms import lab_histogram
+from worker.descriptors.histograms import join_bins, lab_histogram
 from worker.descriptors.landmarks import pack, place_landmarks
 from worker.errors import MeshError
 from worker.geometry.repair import repair
@@ -105,7 +105,10 @@ def histogram_of(variant: Histogram, surface: Surface, areas: FloatArray) -> Flo
     if variant.cells:
         places = (np.arange(len(lab)) + 0.5) / len(lab) * areas.sum()
         lab = surface.lab[np.searchsorted(np.cumsum(areas), places)]
-    return lab_histogram(lab, variant.n_bins, variant.smoothing)
+    histogram = lab_histogram(lab, variant.n_bins, variant.smoothing)
+    if variant.joined:
+        return join_bins(histogram, variant.n_bins, SHIPPED.histogram_lightness, SHIPPED.histogram_chroma)
+    return histogram
 
 
 def curves_of(variant: Curves, surface: Surface, intrinsic: Intrinsic) -> FloatArray:

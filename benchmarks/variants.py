@@ -33,12 +33,14 @@ class Histogram:
     n_bins: int = SHIPPED.histogram_bins  # along each axis
     smoothing: float = SHIPPED.histogram_smoothing  # σ in bins
     cells: bool = False  # of the vertices' mean colours, not of the surface's own
+    joined: bool = False  # into the cells that the program keeps, after smoothing
 
     @property
     def name(self) -> str:
         """Of the block."""
         source = "means" if self.cells else "samples"
-        return f"{HISTOGRAM}: {self.n_bins} bins, smoothed {self.smoothing:g}, {source}"
+        joined = ", joined" * self.joined
+        return f"{HISTOGRAM}: {self.n_bins} bins, smoothed {self.smoothing:g}, {source}{joined}"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,11 +68,12 @@ BAGS = tuple(dict.fromkeys((*SOFT_BAGS, *HKS_BAGS, *LOG_HKS_BAGS)))
 HISTOGRAMS = (
     *(Histogram(n_bins=count, smoothing=smoothing) for count in (8, 12, 16) for smoothing in (0.0, 0.7, 1.2)),
     Histogram(cells=True),
+    Histogram(joined=True),
 )
 CURVE_BLOCKS = tuple(Curves(n_bins=count, whitened=white) for white in (True, False) for count in (8, 16, 32))
 DEFAULTS: Mapping[str, str] = {
     **{signature: bag(signature).name for signature in SHAPE + COLOURED},
-    HISTOGRAM: Histogram().name,
+    HISTOGRAM: Histogram(joined=True).name,
     CURVES: Curves().name,
 }  # block of a method → the variant that the program ships
 

@@ -1,4 +1,4 @@
-"""Blocks as bytes: float32 vectors, kept exactly, packed where many of their numbers are zero."""
+"""Blocks as bytes: one a number where they are packed, float32 otherwise; by zlib where that is shorter."""
 
 import struct
 import zlib
@@ -9,28 +9,43 @@ import numpy.typing as npt
 
 from index.arrays import SingleArray
 from index.errors import BadBlock
+from index.packing import PACKINGS, Packing
 
-_HEADER = struct.Struct("<BI")  # packing, number of values
-_RAW, _PACKED = 0, 1
+_HEADER = struct.Struct("<BI")  # kind, number of values
+_UNIT = struct.Struct("<?d")  # of a packing, after the header: rows outlive the table
+_CODES, _ZLIB = 2, 1  # bits of the kind: one byte a number, compressed
 _LEVEL = 4  # of zlib; higher ones gain nothing on such data
 
 
-def encode_block(block: SingleArray) -> bytes:
-    """Return a vector (n,) as bytes: a header, then little-endian float32, by zlib where that is shorter."""
-    raw = block.astype("<f4", copy=False).tobytes()
-    packed = zlib.compress(raw, _LEVEL)
-    if len(packed) < len(raw):
-        return _HEADER.pack(_PACKED, block.size) + packed
-    return _HEADER.pack(_RAW, block.size) + raw
+def encode_block(name: str, block: SingleArray) -> bytes:
+    """Return a block (n,) as bytes: a header, then its codes where `PACKINGS` has them, else float32."""
+    packing = PACKINGS.get(name)
+    if packing is None:
+        kind, unit, raw = 0, b"", block.astype("<f4", copy=False).tobytes()
+    else:
+        kind, unit = _CODES, _UNIT.pack(packing.squared, packing.unit)
+        raw = packing.pack(block).tobytes()
+    compressed = zlib.compress(raw, _LEVEL)
+    if len(compressed) < len(raw):
+        kind, raw = kind | _ZLIB, compressed
+    return _HEADER.pack(kind, block.size) + unit + raw
 
 
 def decode_block(data: bytes) -> SingleArray:
-    """Return the vector (n,) that `encode_block` was given, bit for bit; read-only."""
-    packing, size = _HEADER.unpack_from(data)
-    body = data[_HEADER.size :]
-    values: SingleArray = np.frombuffer(zlib.decompress(body) if packing == _PACKED else body, dtype="<f4")
+    """Return a block (n,) as `index.packing.rounded` gives it, bit for bit; read-only."""
+    kind, size = _HEADER.unpack_from(data)
+    start = _HEADER.size + (_UNIT.size if kind & _CODES else 0)
+    raw = zlib.decompress(data[start:]) if kind & _ZLIB else data[start:]
+    values: SingleArray = _unpacked(data, raw) if kind & _CODES else np.frombuffer(raw, dtype="<f4")
     if values.size != size:
         raise BadBlock(f"a stored block holds {values.size} numbers, its header says {size}")
+    return values
+
+
+def _unpacked(data: bytes, raw: bytes) -> SingleArray:
+    squared, unit = _UNIT.unpack_from(data, _HEADER.size)
+    values = Packing(squared=squared, unit=unit).unpack(np.frombuffer(raw, dtype=np.uint8))
+    values.flags.writeable = False
     return values
 
 

@@ -44,9 +44,9 @@ METHODS = _table(
     Method(
         name="fused",
         blocks=(
-            # the divisors bring the three distances to one scale
+            # the divisors bring the three distances to one scale; the blocks are kept as a byte a number
             Block(name="log-hks", weight=1 / 0.587, power=1),
-            Block(name="colour-histogram", weight=1 / 1.87, power=1),
+            Block(name="colour-histogram", weight=1 / 1.83, power=1),
             Block(name="colour-curves", weight=1 / 150.5, power=1),
         ),
         description="Geometry, colours and where on the surface they are, then registration of the first",

@@ -76,7 +76,9 @@ def write_plain(session: Session, shape_id: str, blocks: Mapping[str, SingleArra
     session.execute(delete(table).where(table.shape_id == shape_id))
     for name, block in blocks.items():
         _refuse_other_length(session, select(table.data).where(table.name == name), name, block)
-        session.execute(insert(table), {"shape_id": shape_id, "name": name, "data": encode_block(block)})
+        session.execute(
+            insert(table), {"shape_id": shape_id, "name": name, "data": encode_block(name, block)}
+        )
 
 
 def write_quantised(
@@ -88,7 +90,7 @@ def write_quantised(
     session.execute(delete(table).where(ours, table.shape_id == shape_id))
     for name, block in blocks.items():
         _refuse_other_length(session, select(table.data).where(ours, table.name == name), name, block)
-        session.execute(insert(table), {**key, "name": name, "data": encode_block(block)})
+        session.execute(insert(table), {**key, "name": name, "data": encode_block(name, block)})
 
 
 def _refuse_other_length(session: Session, query: Select[bytes], name: str, block: SingleArray) -> None:

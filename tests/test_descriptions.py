@@ -7,6 +7,7 @@ import pytest
 
 from index.errors import BadBlock, FingerprintMismatch, LeaseLost, UnknownVocabulary, VocabularyChanged
 from index.jobs import Job
+from index.packing import rounded
 from index.shapes import Shape, Status
 from tests.catalogues import (
     FINGERPRINT,
@@ -54,7 +55,7 @@ def test_a_description_makes_a_shape_ready_and_ends_its_job(opened: Opened, job:
     assert opened.queue.depth() == 0
     stored = opened.catalogue.blocks("a", opened.vocabulary_id)
     assert {name: block.tolist() for name, block in stored.items()} == {
-        "colour-histogram": [0.5, 0.0, 0.5],
+        "colour-histogram": rounded("colour-histogram", np.array([0.5, 0, 0.5], np.float32)).tolist(),
         "hks-0": [0.25, 0.75],
     }
 

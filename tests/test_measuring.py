@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from index.blocks import decode_block, encode_block
 from index.methods import METHODS, Block, Method
 from service.evaluation.cache import Cache, Described
 from service.evaluation.measuring import GalleryRefused, Loaded, first_stage, load, measure
@@ -74,6 +75,16 @@ def test_distances_equal_the_formula_by_hand(name: str) -> None:
     found = measure(InThisProcess(), test, [method], {}).distances[name]
     np.testing.assert_allclose(found, expected, rtol=1e-9)
     np.testing.assert_allclose(first_stage(METHODS[name], test.queries, test.shapes), expected, rtol=1e-9)
+
+
+def test_what_is_loaded_is_what_an_index_keeps(cache: Cache) -> None:
+    found = load(suite_of(), cache)
+    recipes = [entry.recipe for entry in found.entries] + [query.recipe for query in found.suite.queries]
+    for described, recipe in zip((*found.shapes, *found.queries), recipes, strict=True):
+        exact = cache.load(recipe).blocks
+        for name in SIZES:
+            kept = decode_block(encode_block(name, exact[name]))
+            np.testing.assert_array_equal(described.blocks[name], kept, strict=True)
 
 
 def test_a_second_stage_gives_the_distances_of_a_search() -> None:

@@ -3,9 +3,19 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from sqlalchemy import select
+from sqlalchemy.orm import Session
 
 from index.errors import NotReady, ShapeNotFound
+from index.methods import METHODS
+from index.packing import PACKINGS, rounded
+from index.tables import PlainBlockRow, QuantisedBlockRow
+from index.vocabulary import default_vocabulary
+from service.quantisation import quantise
+from service.samples import make_samples
 from tests.catalogues import HISTOGRAM, WORDS, Opened, add_queued, add_ready, open_catalogue
+from worker.describe import describe
+from worker.reading.upload import Upload
 
 
 @pytest.fixture
@@ -104,3 +114,22 @@ def test_revisions_of_ready_shapes_are_those_of_their_last_change(opened: Opened
     b = opened.catalogue.update("b", name="new")
     add_queued(opened, "c")
     assert opened.catalogue.ready_revisions() == {"a": a.revision, "b": b.revision}
+
+
+def test_the_first_stage_of_fused_takes_less_than_a_kilobyte_of_a_sample(opened: Opened) -> None:
+    described = describe(Upload(files=next(iter(make_samples())).files))
+    words = quantise(described.signatures, default_vocabulary())
+    add_ready(opened, "a", described.blocks, words)
+    names = [block.name for block in METHODS["fused"].blocks]
+    with Session(opened.engine) as session:
+        stored = [
+            len(data)
+            for table in (PlainBlockRow, QuantisedBlockRow)
+            for data in session.scalars(select(table.data).where(table.name.in_(names)))
+        ]
+    assert len(stored) == len(names)
+    assert sum(stored) <= 1_024
+    made, found = {**described.blocks, **words}, opened.catalogue.blocks("a", opened.vocabulary_id)
+    for name in names:
+        np.testing.assert_array_equal(found[name], rounded(name, made[name]), strict=True)
+    assert sum(PACKINGS[name].pack(found[name]).nbytes for name in names) == 741  # of a row in the index

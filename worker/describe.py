@@ -8,7 +8,7 @@ import numpy as np
 from worker.arrays import FloatArray, SingleArray
 from worker.canonical import Surface, canonical_surface
 from worker.descriptors.curves import colour_curves, whiten_curves
-from worker.descriptors.histograms import lab_histogram
+from worker.descriptors.histograms import join_bins, lab_histogram
 from worker.descriptors.landmarks import pack, place_landmarks
 from worker.descriptors.meshhog import mesh_features
 from worker.geometry.areas import face_vectors
@@ -99,7 +99,7 @@ def describe_surface(
     Returns
     -------
     blocks : dict
-        ``colour-histogram`` (b,), ``colour-curves`` (144,), ``landmarks`` (10 p,).
+        ``colour-histogram`` (c,), ``colour-curves`` (144,), ``landmarks`` (10 p,).
     signatures : dict
         ``areas`` (n,), ``hks-η`` (n, 6) and ``eigenvalues-η`` (k,) for each η, ``log-hks`` (n, 6),
         ``diffusion-geometric`` and ``diffusion-joint`` (quantiles), ``landmark-ladder`` (p, j),
@@ -111,8 +111,11 @@ def describe_surface(
     )
     blocks = {
         "landmarks": pack(shared.signatures["landmark-ladder"], placed).ravel(),
-        "colour-histogram": lab_histogram(
-            surface.sample_lab, parameters.histogram_bins, parameters.histogram_smoothing
+        "colour-histogram": join_bins(
+            lab_histogram(surface.sample_lab, parameters.histogram_bins, parameters.histogram_smoothing),
+            parameters.histogram_bins,
+            parameters.histogram_lightness,
+            parameters.histogram_chroma,
         ),
         "colour-curves": whiten_curves(
             colour_curves(shared.orders, surface.lab, shared.areas, parameters.curve_bins)

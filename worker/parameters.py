@@ -5,7 +5,7 @@ import json
 from dataclasses import asdict, dataclass
 from enum import StrEnum
 
-FORMAT = 2  # raised whenever the code changes a descriptor without changing a number below
+FORMAT = 3  # raised whenever the code changes a descriptor without changing a number below
 
 
 class Operator(StrEnum):
@@ -49,6 +49,8 @@ class Parameters:
     distance_quantiles: int = 1_024  # levels at which a distance distribution is kept
     histogram_bins: int = 16  # of the Lab histogram, along each axis
     histogram_smoothing: float = 0.7  # σ in bins
+    histogram_lightness: tuple[int, ...] = (2,) * 8  # bins that are joined along L
+    histogram_chroma: tuple[int, ...] = (4, 2, 1, 1, 1, 1, 2, 4)  # along a and b; finest around grey
     curve_times: tuple[float, ...] = (256.0, 1024.0, 4096.0)  # orders of the colour curves
     curve_bins: int = 16  # equal areas along each order
     landmarks: int = 256  # points by which shapes are registered

@@ -2,12 +2,13 @@
 
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.spatial.distance import cdist
 
 from index.methods import Method
+from index.packing import rounded
 from service.evaluation.cache import Cache, Described
 from service.evaluation.outcome import Outcome, Question
 from service.evaluation.registering import Additions, additions_of
@@ -37,13 +38,13 @@ class Loaded:
 
 
 def load(suite: Suite, cache: Cache) -> Loaded:
-    """Read what was described; refused clutter is left out of the gallery.
+    """Read what was described, as an index compares it; refused clutter is left out of the gallery.
 
     Raises
     ------
     GalleryRefused
     """
-    loaded = [(entry, cache.load(entry.recipe)) for entry in suite.gallery]
+    loaded = [(entry, as_compared(cache.load(entry.recipe))) for entry in suite.gallery]
     wanted = {query.model for query in suite.queries}
     for entry, described in loaded:
         if described.refused and entry.name in wanted:
@@ -53,8 +54,14 @@ def load(suite: Suite, cache: Cache) -> Loaded:
         suite=suite,
         entries=tuple(entry for entry, _ in kept),
         shapes=tuple(described for _, described in kept),
-        queries=tuple(cache.load(query.recipe) for query in suite.queries),
+        queries=tuple(as_compared(cache.load(query.recipe)) for query in suite.queries),
     )
+
+
+def as_compared(described: Described) -> Described:
+    """Return a mesh with its blocks as an index keeps and compares them."""
+    blocks = {name: rounded(name, block) for name, block in described.blocks.items()}
+    return replace(described, blocks=blocks)
 
 
 def measure(pool: Executor, loaded: Loaded, methods: Sequence[Method], additions: Additions) -> Outcome:

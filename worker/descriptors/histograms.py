@@ -1,11 +1,11 @@
-"""Histograms of a surface's colours in CIE Lab."""
+"""Histograms of a surface's colours in CIE Lab: fine bins that are smoothed, then joined into fewer."""
 
 from functools import cache
 
 import numpy as np
 from scipy.ndimage import binary_dilation, gaussian_filter
 
-from worker.arrays import BoolArray, FloatArray
+from worker.arrays import BoolArray, FloatArray, IntArray
 from worker.geometry.colour import srgb_to_lab
 
 LOWER = np.array([0.0, -80.0, -80.0])  # of L, a, b; colours outside count in the outermost bins
@@ -39,6 +39,32 @@ def lab_histogram(lab: FloatArray, n_bins: int, smoothing: float) -> FloatArray:
     return np.asarray(inside / inside.sum())
 
 
+def join_bins(
+    histogram: FloatArray, n_bins: int, lightness: tuple[int, ...], chroma: tuple[int, ...]
+) -> FloatArray:
+    """Sum the bins of a histogram into larger cells.
+
+    Most surfaces are nearly grey, where a small difference of a or b already tells two apart, and few colours
+    are strong: narrow cells around a = b = 0 and wide ones beyond do with a sixth of the numbers. Bins are
+    smoothed before, while they are narrow.
+
+    Parameters
+    ----------
+    histogram : (b,) array
+        As from `lab_histogram`.
+    n_bins : int
+        Of that histogram, along each axis.
+    lightness, chroma : tuple of int
+        How many bins each cell takes along L, and along a and b, from the lower end; n_bins in all.
+
+    Returns
+    -------
+    (c,) array
+        Sums to the same; the cells that hold a bin of the gamut, L slowest and b fastest.
+    """
+    return np.asarray(np.bincount(_cells(n_bins, lightness, chroma), histogram))
+
+
 def _counts(lab: FloatArray, n_bins: int) -> FloatArray:
     """Share samples linearly among bins; (n_bins, n_bins, n_bins)."""
     places = (lab - LOWER) / (UPPER - LOWER) * n_bins - 0.5  # (k, 3), whole at the middle of a bin
@@ -60,3 +86,11 @@ def _gamut(n_bins: int) -> BoolArray:
     cube = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), axis=-1).reshape(-1, 3)
     filled = _counts(srgb_to_lab(cube), n_bins) > 0
     return np.asarray(binary_dilation(filled, iterations=1))
+
+
+@cache
+def _cells(n_bins: int, lightness: tuple[int, ...], chroma: tuple[int, ...]) -> IntArray:
+    """Return the place of each bin's cell among the cells that are kept; (b,)."""
+    axes = [np.repeat(np.arange(len(sizes)), sizes) for sizes in (lightness, chroma, chroma)]
+    places = [axis[bins] for axis, bins in zip(axes, np.nonzero(_gamut(n_bins)), strict=True)]
+    return np.unique(np.stack(places), axis=1, return_inverse=True)[1].ravel()
