@@ -6,12 +6,13 @@ from index.acceptance import Acceptance
 from index.descriptions import Descriptions
 from index.editing import Editing
 from index.listing import Listing
+from index.questions import Questions
 from index.revisions import Revisions
 from index.stored_blocks import StoredBlocks
 from index.stored_vocabularies import Vocabularies
 
 
-class Catalogue(Acceptance, Editing, Descriptions, Revisions, StoredBlocks, Vocabularies, Listing):
+class Catalogue(Acceptance, Editing, Descriptions, Revisions, StoredBlocks, Vocabularies, Listing, Questions):
     """Shapes, their descriptors and vocabularies; each of the classes above is one of its concerns.
 
     Safe to share between threads; other processes may have their own on the same database.

@@ -51,6 +51,13 @@ def reading(engine: Engine) -> Iterator[Session]:
 
 
 @contextmanager
+def looking(engine: Engine) -> Iterator[Connection]:
+    """Do as `reading` does, without an ORM: for what every search asks."""
+    with _named(), engine.connect() as connection:
+        yield connection
+
+
+@contextmanager
 def writing(engine: Engine) -> Iterator[Session]:
     """One transaction that writes; committed and durable when the block ends.
 

@@ -1,8 +1,7 @@
-"""Listing: shapes one by one, many at once, page by page."""
+"""Listing: shapes one by one, and page by page."""
 
-import builtins
 from base64 import urlsafe_b64decode, urlsafe_b64encode
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 
 from sqlalchemy import Engine, Select, false, func, select
 
@@ -13,7 +12,6 @@ from index.shapes import Page, Shape, Status
 from index.tables import FileRow, ShapeRow
 
 _LONGEST = 12_000  # signs of a filter; SQLite refuses patterns over 50 000 bytes
-_AT_ONCE = 500  # ids in one statement; SQLite allows 32 766 values
 
 
 class Listing:
@@ -25,16 +23,6 @@ class Listing:
         """Return one shape; ShapeNotFound where there is none."""
         with reading(self._engine) as session:
             return shape_of(shape_row(session, shape_id))
-
-    def get_many(self, shape_ids: Iterable[str]) -> dict[str, Shape]:
-        """Return the shapes that exist among `shape_ids`, by id."""
-        wanted = builtins.list(dict.fromkeys(shape_ids))
-        found: dict[str, Shape] = {}
-        with reading(self._engine) as session:
-            for start in range(0, len(wanted), _AT_ONCE):
-                some = select(ShapeRow).where(ShapeRow.id.in_(wanted[start : start + _AT_ONCE]))
-                found.update((row.id, shape_of(row)) for row in session.scalars(some))
-        return found
 
     def list(
         self,

@@ -1,11 +1,12 @@
 """The web application: made from settings, opened and closed by its lifespan."""
 
 import contextlib
+import os
 import threading
 from collections.abc import AsyncIterator, Callable, Iterator
 from importlib.metadata import version
 
-from anyio import to_thread
+from anyio import CapacityLimiter, to_thread
 from fastapi import APIRouter, Depends, FastAPI
 
 from service.http.dependencies import Services, guard
@@ -24,6 +25,7 @@ from service.library import Library
 from service.settings import Settings
 
 OpenLibrary = Callable[[Settings], Library]
+RANKINGS = 2 * (os.cpu_count() or 1)  # threads that rank: more would only take turns
 
 
 def create_app(
@@ -105,6 +107,7 @@ def _services(
         yield Services(
             library=library,
             searches=searches,
+            rankings=CapacityLimiter(RANKINGS),
             turnstile=Turnstile(settings.search_slots + settings.search_queue),
             metrics=metrics,
             notify=notify,

@@ -7,23 +7,22 @@ from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import Any
 
-from index.errors import FileMissing, FingerprintMismatch, NotReady, VocabularyChanged
+from index.errors import FileMissing, FingerprintMismatch, VocabularyChanged
 from index.methods import DEFAULT_METHOD, method, with_weights
 from index.shapes import Shape, Status, StoredFile
-from index.vocabulary import Vocabulary
 from service.intake.submissions import Submission
 from service.jobs.describing import Describe, describe_files
 from service.library import Library
 from service.quantisation import quantise, require_same
 from service.refining import LANDMARKS, QUERY_LADDER, QueryLandmarks, refine
 from service.storage import load_signatures, upload_key
-from service.vocabularies import active_vocabulary
+from service.vocabularies import active_vocabulary, known_vocabulary
 from worker.arrays import SingleArray
 from worker.describe import Description, MeshFacts
 from worker.reading.upload import inspect_upload
 
 ATTEMPTS = 5  # at a query while vocabularies change
-BlocksIn = Callable[[Vocabulary], Mapping[str, SingleArray]]  # the query in the words of a vocabulary
+AsQuery = Callable[[], tuple[str, Mapping[str, SingleArray]]]  # a vocabulary's id, blocks in its words
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -103,17 +102,16 @@ def find_similar(library: Library, shape_id: str, question: Question) -> Answer:
     ShapeNotFound, NotReady, UnknownMethod, BadWeights
     """
     start = time.perf_counter()
-    shape = library.catalogue.get(shape_id)
-    if shape.status != Status.READY:
-        raise NotReady(f"the shape is {shape.status}; only a ready one can be compared")
+    names = {LANDMARKS, *(block.name for block in method(question.method).blocks)}
 
-    def blocks(vocabulary: Vocabulary) -> Mapping[str, SingleArray]:
-        return library.catalogue.blocks(shape_id, vocabulary.id)
+    def query() -> tuple[str, Mapping[str, SingleArray]]:
+        stored = library.catalogue.query_blocks(shape_id, names)
+        return known_vocabulary(stored.vocabulary_id), stored.blocks
 
-    def landmarks() -> QueryLandmarks:
-        return _stored_landmarks(library, shape_id)
+    def landmarks(blocks: Mapping[str, SingleArray]) -> QueryLandmarks:
+        return _stored_landmarks(library, shape_id, blocks)
 
-    found = _rank(library, question, blocks, landmarks, exclude=(shape_id,))
+    found = _rank(library, question, query, landmarks, exclude=(shape_id,))
     return _answer(library, question, found, start)
 
 
@@ -150,16 +148,15 @@ def search_description(
 ) -> list[tuple[str, float]]:
     """Return ids and distances of the shapes nearest to a description."""
 
-    def blocks(vocabulary: Vocabulary) -> Mapping[str, SingleArray]:
+    def query() -> tuple[str, Mapping[str, SingleArray]]:
+        vocabulary = active_vocabulary(library)
         require_same(description.fingerprint, vocabulary)
-        return {**description.blocks, **quantise(description.signatures, vocabulary)}
+        return vocabulary.id, {**description.blocks, **quantise(description.signatures, vocabulary)}
 
-    def landmarks() -> QueryLandmarks:
-        return QueryLandmarks(
-            packed=description.blocks[LANDMARKS], ladder=description.signatures[QUERY_LADDER]
-        )
+    def landmarks(blocks: Mapping[str, SingleArray]) -> QueryLandmarks:
+        return QueryLandmarks(packed=blocks[LANDMARKS], ladder=description.signatures[QUERY_LADDER])
 
-    return _rank(library, question, blocks, landmarks)
+    return _rank(library, question, query, landmarks)
 
 
 def change_shape(
@@ -202,22 +199,21 @@ def _delete_files(library: Library, files: Iterable[StoredFile]) -> None:
 def _rank(
     library: Library,
     question: Question,
-    blocks: BlocksIn,
-    landmarks: Callable[[], QueryLandmarks],
+    query: AsQuery,
+    landmarks: Callable[[Mapping[str, SingleArray]], QueryLandmarks],
     exclude: tuple[str, ...] = (),
 ) -> list[tuple[str, float]]:
     """Search, and refine the first where the method does; own weights ask for the blocks alone."""
     first = 0 if question.weights else method(question.method).refined
-    found = _search(library, question, blocks, max(question.limit, first), exclude)
+    found, blocks = _search(library, question, query, max(question.limit, first), exclude)
     if not found or not first:
         return found
-    blocks_of = library.catalogue.blocks_of([shape_id for shape_id, _ in found[:first]], [LANDMARKS])
-    stored = {shape_id: block[LANDMARKS] for shape_id, block in blocks_of.items() if block}
-    return refine(found, landmarks(), stored, first)[: question.limit]
+    stored = library.catalogue.one_block([shape_id for shape_id, _ in found[:first]], LANDMARKS)
+    return refine(found, landmarks(blocks), stored, first)[: question.limit]
 
 
-def _stored_landmarks(library: Library, shape_id: str) -> QueryLandmarks:
-    """Read a stored query's landmarks.
+def _stored_landmarks(library: Library, shape_id: str, blocks: Mapping[str, SingleArray]) -> QueryLandmarks:
+    """Join a stored query's landmarks and what is kept for queries alone.
 
     Raises
     ------
@@ -226,7 +222,7 @@ def _stored_landmarks(library: Library, shape_id: str) -> QueryLandmarks:
     FingerprintMismatch
         It was described by an earlier version.
     """
-    packed = library.catalogue.blocks(shape_id, None).get(LANDMARKS)
+    packed = blocks.get(LANDMARKS)
     if packed is None:
         raise FingerprintMismatch("This shape was described by an earlier version; index its files anew.")
     try:
@@ -238,22 +234,30 @@ def _stored_landmarks(library: Library, shape_id: str) -> QueryLandmarks:
 
 
 def _search(
-    library: Library, question: Question, blocks: BlocksIn, limit: int, exclude: tuple[str, ...]
-) -> list[tuple[str, float]]:
-    """Search with the active vocabulary; once more where another becomes active in this moment."""
+    library: Library, question: Question, query: AsQuery, limit: int, exclude: tuple[str, ...]
+) -> tuple[list[tuple[str, float]], Mapping[str, SingleArray]]:
+    """Search with the active vocabulary, once more where another becomes active in this moment.
+
+    Returns
+    -------
+    list of (id, distance)
+    mapping of str to array
+        The query's blocks.
+    """
     for _ in range(ATTEMPTS):
-        vocabulary = active_vocabulary(library)
+        vocabulary_id, blocks = query()
         try:
-            return library.searcher.search(
+            found = library.searcher.search(
                 question.method,
-                blocks(vocabulary),
+                blocks,
                 limit,
                 weights=question.weights,
                 exclude=exclude,
-                vocabulary_id=vocabulary.id,
+                vocabulary_id=vocabulary_id,
             )
         except VocabularyChanged:
             continue
+        return found, blocks
     raise VocabularyChanged("vocabularies kept changing during the query; try again")
 
 

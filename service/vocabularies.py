@@ -12,6 +12,7 @@ from service.storage import load_signatures
 from worker.arrays import SingleArray
 
 BATCH = 100  # shapes between two questions to the catalogue
+NONE_ACTIVE = "no vocabulary is active; learn one with `faience learn-vocabulary`"
 Progress = Callable[[int, int], None]  # shapes done, shapes known so far
 
 
@@ -19,6 +20,13 @@ class NoVocabulary(Exception):
     """No vocabulary of these parameters is active; one must be learnt first."""
 
     code = "no_vocabulary"
+
+
+def known_vocabulary(vocabulary_id: str | None) -> str:
+    """Return the id of the active vocabulary, as the catalogue told it; NoVocabulary for None."""
+    if vocabulary_id is None:
+        raise NoVocabulary(NONE_ACTIVE)
+    return vocabulary_id
 
 
 def active_vocabulary(library: Library) -> Vocabulary:
@@ -85,7 +93,7 @@ def _all_signatures(library: Library) -> Iterator[dict[str, SingleArray]]:
 def _read_active(library: Library) -> Vocabulary:
     vocabulary = library.catalogue.active_vocabulary()
     if vocabulary is None:
-        raise NoVocabulary("no vocabulary is active; learn one with `faience learn-vocabulary`")
+        raise NoVocabulary(NONE_ACTIVE)
     library.vocabularies.clear()  # one at a time is asked for
     library.vocabularies[vocabulary.id] = vocabulary
     return vocabulary

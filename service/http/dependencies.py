@@ -1,10 +1,11 @@
-"""What routes are given."""
+"""What routes are given. Coroutines, although none waits: FastAPI would send functions to threads."""
 
 from collections.abc import Callable
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import Annotated
 
+from anyio import CapacityLimiter
 from fastapi import Depends, Query, Request
 from fastapi.security import HTTPAuthorizationCredentials
 
@@ -25,23 +26,24 @@ class Services:
     library: Library
     searches: Executor  # describes meshes that are not kept
     turnstile: Turnstile  # before it
+    rankings: CapacityLimiter  # threads that rank at the same time
     metrics: Metrics
     notify: Callable[[], None]  # tells the embedded worker, if there is one, of a new job
     describe: Describe  # what a child does with an upload
 
 
-def services(request: Request) -> Services:
+async def services(request: Request) -> Services:
     """Return what the lifespan opened."""
     opened: Services = request.app.state.services
     return opened
 
 
-def library(request: Request) -> Library:
+async def library(request: Request) -> Library:
     """Return the open library."""
-    return services(request).library
+    return (await services(request)).library
 
 
-def guard(
+async def guard(
     request: Request, credentials: Annotated[HTTPAuthorizationCredentials | None, Depends(bearer)]
 ) -> None:
     """Let in who holds a key, and no pages of other sites."""
@@ -50,7 +52,7 @@ def guard(
     check_key(credentials, request.app.state.key_digests)
 
 
-def question(
+async def question(
     method: Annotated[str, Query(description="a name from /v1/methods")] = DEFAULT_METHOD,
     limit: Annotated[int, Query(ge=1, le=1000, description="results at most")] = 10,
     weights: Annotated[

@@ -3,7 +3,7 @@
 from anyio import to_thread
 from fastapi import APIRouter, Request
 
-from service.http.dependencies import LibraryPart, QuestionPart, Services, ServicesPart
+from service.http.dependencies import QuestionPart, Services, ServicesPart
 from service.http.openapi import form_body, problems
 from service.http.schemas import AnswerModel
 from service.intake.submissions import Submission
@@ -19,9 +19,13 @@ router = APIRouter(tags=["search"])
     summary="What is similar to a stored shape",
     responses=problems(401, 404, 409, 503),
 )
-def similar(library: LibraryPart, shape_id: str, question: QuestionPart) -> AnswerModel:
+async def similar(services: ServicesPart, shape_id: str, question: QuestionPart) -> AnswerModel:
     """Rank the other shapes by their distance to this one."""
-    return AnswerModel.of(find_similar(library, shape_id, question))
+    return await to_thread.run_sync(_similar, services, shape_id, question, limiter=services.rankings)
+
+
+def _similar(services: Services, shape_id: str, question: Question) -> AnswerModel:
+    return AnswerModel.of(find_similar(services.library, shape_id, question))
 
 
 @router.post(
