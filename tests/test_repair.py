@@ -11,7 +11,8 @@ from tests.mesh_files import area
 from tests.shapes import icosahedron
 from worker.arrays import FloatArray, IntArray
 from worker.errors import Code, MeshError
-from worker.geometry.repair import empty_faces, first_equal_rows, repair, weld
+from worker.geometry.repair import empty_faces, repair
+from worker.geometry.welding import first_equal_rows, weld
 from worker.reading.mesh import Colour, Mesh
 
 

@@ -11,8 +11,8 @@ from worker.descriptors.curves import colour_curves, whiten_curves
 from worker.descriptors.histograms import join_bins, lab_histogram
 from worker.descriptors.landmarks import pack, place_landmarks
 from worker.descriptors.meshhog import mesh_features
-from worker.geometry.areas import face_vectors
 from worker.geometry.repair import Repaired, repair
+from worker.geometry.resampling import face_areas
 from worker.intrinsic import Intrinsic, describe_triangles, distribution, signatures_at
 from worker.parameters import Parameters
 from worker.pictures.preview import preview
@@ -138,7 +138,7 @@ def describe_surface(
 
 
 def _facts(mesh: Mesh, repaired: Repaired) -> MeshFacts:
-    area = np.linalg.norm(face_vectors(repaired.vertices, repaired.faces), axis=1).sum()
+    area = face_areas(repaired.vertices, repaired.faces).sum()
     return MeshFacts(
         vertices=len(repaired.vertices),
         faces=len(repaired.faces),

@@ -12,7 +12,7 @@ from worker.arrays import FloatArray, IntArray
 from worker.geometry.areas import face_vectors
 from worker.geometry.colour import look_up_colours
 from worker.geometry.edges import find_edges, lengths_of
-from worker.geometry.repair import weld
+from worker.geometry.welding import weld
 from worker.reading.mesh import Mesh
 
 REACH = 0.03  # length of the longest weld, as a share of √area: 4 cm on a person

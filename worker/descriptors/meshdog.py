@@ -4,6 +4,8 @@ Zaharescu, Boyer, Varanasi and Horaud (2009), "Surface Feature Detection and Des
 Mesh Matching", section 3.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 from scipy.sparse import csr_array
 
@@ -20,6 +22,28 @@ STRONGEST = 0.05  # share of the vertices that may be features
 RATIO = 10.0  # of the Hessian's eigenvalues, above which an extremum is an edge
 FEWEST, MOST = 100, 2_000  # features of a shape, where it has as many extrema
 ROUNDING = 1e-6  # smaller differences are none; in units of CIE Lab
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Terrain:
+    """A surface with what detector and descriptor both ask of it."""
+
+    vertices: FloatArray  # (n, 3)
+    faces: IntArray  # (m, 3)
+    normals: FloatArray  # (n, 3), unit ones
+    rings: csr_array  # (n, n), as from `one_rings`
+    operator: csr_array  # (3 n, n), as from `gradient_operator`
+
+
+def terrain_of(vertices: FloatArray, faces: IntArray) -> Terrain:
+    """Prepare a surface."""
+    return Terrain(
+        vertices=vertices,
+        faces=faces,
+        normals=vertex_normals(vertices, faces),
+        rings=one_rings(faces, len(vertices)),
+        operator=gradient_operator(vertices, faces),
+    )
 
 
 def meshdog(scalar: FloatArray, vertices: FloatArray, faces: IntArray) -> IntArray:
@@ -42,7 +66,7 @@ def meshdog(scalar: FloatArray, vertices: FloatArray, faces: IntArray) -> IntArr
         Indices of vertices: those that passed, the strongest first, then the others. Empty where the function
         is constant.
     """
-    extrema, n_passed = ranked_extrema(scalar, vertices, faces)
+    extrema, n_passed = ranked_extrema(scalar, terrain_of(vertices, faces))
     return extrema[: n_kept(n_passed)]
 
 
@@ -51,8 +75,8 @@ def n_kept(n_passed: int) -> int:
     return min(max(n_passed, FEWEST), MOST)
 
 
-def ranked_extrema(scalar: FloatArray, vertices: FloatArray, faces: IntArray) -> tuple[IntArray, int]:
-    """Find all extrema and rank them. Arguments as for `meshdog`.
+def ranked_extrema(scalar: FloatArray, terrain: Terrain) -> tuple[IntArray, int]:
+    """Find all extrema and rank them. The function as for `meshdog`.
 
     Returns
     -------
@@ -60,15 +84,14 @@ def ranked_extrema(scalar: FloatArray, vertices: FloatArray, faces: IntArray) ->
         Indices of vertices: those that passed the tests, the strongest first, then the others.
     n_passed : int
     """
-    rings = one_rings(faces, len(vertices))
-    differences = differences_of_gaussians(scalar, vertices, rings)
-    strengths = _extrema(differences, rings) * np.abs(differences[1:-1])  # (levels − 2, n)
+    differences = differences_of_gaussians(scalar, terrain.vertices, terrain.rings)
+    strengths = _extrema(differences, terrain.rings) * np.abs(differences[1:-1])  # (levels − 2, n)
     strongest = strengths.max(axis=0)
     found = np.flatnonzero(strongest > ROUNDING)
     found = found[np.argsort(-strongest[found], kind="stable")]
     levels = 1 + strengths.argmax(axis=0)[found]
-    passed = are_corners(_hessians(differences, levels, found, vertices, faces))
-    passed[int(np.ceil(STRONGEST * len(vertices))) :] = False
+    passed = are_corners(_hessians(differences, levels, found, terrain))
+    passed[int(np.ceil(STRONGEST * len(scalar))) :] = False
     return found[np.argsort(~passed, kind="stable")], int(passed.sum())
 
 
@@ -123,15 +146,14 @@ def _extrema(differences: FloatArray, rings: csr_array) -> BoolArray:
     return np.asarray(np.where(inner > 0, inner >= highest, inner <= lowest))
 
 
-def _hessians(
-    differences: FloatArray, levels: IntArray, found: IntArray, vertices: FloatArray, faces: IntArray
-) -> FloatArray:
+def _hessians(differences: FloatArray, levels: IntArray, found: IntArray, terrain: Terrain) -> FloatArray:
     """Return the Hessian at each extremum on its own level; (f, 2, 2)."""
-    operator, normals = gradient_operator(vertices, faces), vertex_normals(vertices, faces)
     hessians = np.empty((len(found), 2, 2))
     for level in np.unique(levels):
         there = levels == level
-        hessians[there] = tangent_hessians(operator, differences[level], normals)[found[there]]
+        hessians[there] = tangent_hessians(
+            terrain.operator, differences[level], terrain.normals, found[there]
+        )
     return hessians
 
 

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from worker.arrays import FloatArray, IntArray
-from worker.descriptors.meshdog import ROUNDING, n_kept, ranked_extrema
-from worker.geometry.areas import edge_lengths, triangle_areas, unit, vertex_areas, vertex_normals
-from worker.geometry.gradients import gradient_operator, gradients, tangent_bases
-from worker.geometry.rings import one_rings, rings_covering
+from worker.descriptors.meshdog import ROUNDING, Terrain, n_kept, ranked_extrema, terrain_of
+from worker.geometry.areas import edge_lengths, triangle_areas, unit, vertex_areas
+from worker.geometry.gradients import gradients, tangent_bases
+from worker.geometry.rings import rings_covering
 
 SUPPORT = 0.01  # of the surface's area
 DIRECTIONS = 36  # bins of the histogram whose peak is the tangent axis
@@ -46,8 +46,9 @@ def mesh_features(scalar: FloatArray, vertices: FloatArray, faces: IntArray) -> 
         Rows of length 1. Extrema without contrast in their support, which lie in large patches of one colour,
         are left out; the next ones take their place. No rows at all where the function is constant.
     """
-    extrema, n_passed = ranked_extrema(scalar, vertices, faces)
-    descriptors = meshhog(scalar, vertices, faces, extrema)
+    terrain = terrain_of(vertices, faces)
+    extrema, n_passed = ranked_extrema(scalar, terrain)
+    descriptors = describe_points(scalar, terrain, extrema)
     described = np.asarray(descriptors.any(axis=1))
     return descriptors[described][: n_kept(int(described[:n_passed].sum()))]
 
@@ -70,8 +71,13 @@ def meshhog(scalar: FloatArray, vertices: FloatArray, faces: IntArray, indices: 
         Plane slowest, then slice, then orientation; not negative, of length 1, or 0 where the support has one
         colour.
     """
-    normals = vertex_normals(vertices, faces)[indices]
-    supports = _supports(scalar, vertices, faces, indices)
+    return describe_points(scalar, terrain_of(vertices, faces), indices)
+
+
+def describe_points(scalar: FloatArray, terrain: Terrain, indices: IntArray) -> FloatArray:
+    """Describe a function (n,) around vertices (f,), as `meshhog` does; (f, 96)."""
+    normals = terrain.normals[indices]
+    supports = _supports(scalar, terrain, indices)
     frames = _frames(supports, normals)  # (f, 3, 3)
     places = np.einsum("pac,pc->pa", frames[supports.owners], unit(supports.offsets))
     slopes = np.einsum("pac,pc->pa", frames[supports.owners], supports.gradients)
@@ -81,12 +87,13 @@ def meshhog(scalar: FloatArray, vertices: FloatArray, faces: IntArray, indices: 
     return unit(np.hstack(histograms))
 
 
-def _supports(scalar: FloatArray, vertices: FloatArray, faces: IntArray, indices: IntArray) -> Supports:
+def _supports(scalar: FloatArray, terrain: Terrain, indices: IntArray) -> Supports:
     """Take the rings that cover 1 % of the surface; σ is the radius of a flat disc of that area."""
+    vertices, faces = terrain.vertices, terrain.faces
     areas = vertex_areas(faces, triangle_areas(edge_lengths(vertices, faces)), len(vertices))
     area = SUPPORT * float(areas.sum())
-    owners, members = rings_covering(one_rings(faces, len(vertices)), areas, indices, area)
-    slopes = gradients(gradient_operator(vertices, faces), scalar)[members]
+    owners, members = rings_covering(terrain.rings, areas, indices, area)
+    slopes = gradients(terrain.operator, scalar)[members]
     offsets = vertices[members] - vertices[indices[owners]]
     weights = np.exp(-np.sum(offsets**2, axis=1) * np.pi / (2.0 * area))
     steep = np.linalg.norm(slopes, axis=1) * np.sqrt(area / np.pi) > ROUNDING

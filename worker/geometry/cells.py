@@ -86,7 +86,7 @@ def nearest_of(points: FloatArray, centres: FloatArray, reach: float) -> IntArra
     starts = np.concatenate([[0], np.cumsum(np.bincount(keys, minlength=int(shape.prod())))])
     nearest = _search(points, centres[order], starts, shape, lower, side)
     far = np.flatnonzero(nearest < 0)
-    found = order[nearest]
+    found: IntArray = order[nearest]
     if len(far):
         found[far] = cKDTree(centres).query(points[far])[1]
     return found

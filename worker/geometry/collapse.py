@@ -238,7 +238,7 @@ def _n_shared(surface: _Surface, start: int, end: int) -> int:
 
 @compiled
 def _settle(surface: _Surface, kept: int, gone: int, point: FloatArray) -> None:
-    """Minimise the quadric error, pulled slightly to the middle, which settles flat places (Cramer's rule)."""
+    """Minimise the quadric error by Cramer's rule, pulled a little to the middle for flat places."""
     first, second, vertices = surface.quadrics[kept], surface.quadrics[gone], surface.vertices
     xx, xy, xz = first[0] + second[0], first[1] + second[1], first[2] + second[2]
     yy, yz, zz = first[3] + second[3], first[4] + second[4], first[5] + second[5]

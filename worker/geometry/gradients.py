@@ -44,7 +44,9 @@ def gradients(operator: csr_array, values: FloatArray) -> FloatArray:
     return np.asarray(operator @ values).reshape(-1, 3)
 
 
-def tangent_hessians(operator: csr_array, values: FloatArray, normals: FloatArray) -> FloatArray:
+def tangent_hessians(
+    operator: csr_array, values: FloatArray, normals: FloatArray, chosen: IntArray | None = None
+) -> FloatArray:
     """Return the second derivatives of a function along the surface.
 
     The covariant derivative of the gradient: differentiate its components in space, keep what lies in the
@@ -57,14 +59,18 @@ def tangent_hessians(operator: csr_array, values: FloatArray, normals: FloatArra
     values : (n,) array
     normals : (n, 3) array
         Unit normals at the vertices.
+    chosen : (k,) array, optional
+        Vertices where they are wanted; everywhere without it.
 
     Returns
     -------
-    (n, 2, 2) array
+    (k, 2, 2) array
         In some orthonormal basis of each tangent plane; eigenvalues do not depend on which.
     """
     derivatives = np.asarray(operator @ gradients(operator, values)).reshape(-1, 3, 3)
-    bases = tangent_bases(normals)  # (n, 2, 3)
+    if chosen is not None:
+        derivatives, normals = derivatives[chosen], normals[chosen]
+    bases = tangent_bases(normals)  # (k, 2, 3)
     hessians = bases @ derivatives @ bases.transpose(0, 2, 1)
     return np.asarray((hessians + hessians.transpose(0, 2, 1)) / 2.0)
 

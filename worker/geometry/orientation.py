@@ -1,36 +1,26 @@
 """Which faces to turn, so that neighbours agree on what is outside."""
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from worker.arrays import BoolArray, IntArray
+from worker.compiled import compiled
+from worker.geometry.edges import Edges
 
 
-def face_edges(faces: IntArray) -> IntArray:
-    """Return the directed edges of faces (m, 3): first edges, then second, then third ones, (3m, 2)."""
-    return np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
-
-
-def undirected(edges: IntArray) -> IntArray:
-    """Return one number for each edge (k, 2), the same in both directions: (k,)."""
-    most = int(edges.max(initial=0)) + 1
-    numbers: IntArray = edges.min(axis=1) * most + edges.max(axis=1)
-    return numbers
-
-
-def flipped_faces(faces: IntArray) -> tuple[BoolArray, bool]:
+def flipped_faces(faces: IntArray, edges: Edges) -> tuple[BoolArray, bool]:
     """Return which faces to turn.
 
-    Every face stands twice in a graph, as it is and turned. Where two faces meet along an edge, copies
-    that agree are connected: the faces of one orientable piece fall into two mirrored sets, of which
-    the one with more faces as they are is taken. Where they fall into one set (a Möbius strip),
-    the piece stays as it is.
+    Faces that meet along an edge of two are joined to pieces, in which every face is known as turned or not
+    relative to the first. Of the two ways to turn a piece, the one that leaves more faces as they are is
+    taken; where they are as many, the one that leaves the first. A piece that contradicts itself (a Möbius
+    strip) stays as it is.
 
     Parameters
     ----------
     faces : IntArray
         (m, 3); edges of more than two faces connect nothing.
+    edges : Edges
+        Of these faces.
 
     Returns
     -------
@@ -39,28 +29,66 @@ def flipped_faces(faces: IntArray) -> tuple[BoolArray, bool]:
     orientable : bool
         Whether every piece could be oriented.
     """
-    n_faces = len(faces)
-    first, second, agree = _neighbours(faces)
-    other = second + np.where(agree, 0, n_faces)  # the copy of `second` that agrees with `first` as it is
-    mirrored = second + np.where(agree, n_faces, 0)
-    starts, ends = np.concatenate([first, first + n_faces]), np.concatenate([other, mirrored])
-    graph = coo_array((np.ones(starts.size, dtype=np.int8), (starts, ends)), shape=(2 * n_faces, 2 * n_faces))
-    n_sets, labels = connected_components(graph, directed=False)
-    as_is, turned = labels[:n_faces], labels[n_faces:]
-    sizes = np.bincount(as_is, minlength=n_sets)  # faces as they are in each set
-    # Of two sets of equal size the one with the lower number wins, which holds the first face as it is.
-    flipped: BoolArray = (sizes[turned] > sizes[as_is]) | ((sizes[turned] == sizes[as_is]) & (turned < as_is))
-    return flipped, bool((as_is != turned).all())
+    flipped = np.zeros(len(faces), dtype=np.bool_)
+    one_sided = _turn_pieces(faces, edges.of_faces, edges.n_faces, flipped)
+    return flipped, not one_sided
 
 
-def _neighbours(faces: IntArray) -> tuple[IntArray, IntArray, BoolArray]:
-    """Return the pairs of faces that share an edge of exactly two, and whether they agree: (p,) each."""
-    edges = face_edges(faces)
-    owners = np.tile(np.arange(len(faces)), 3)
-    ascending = edges[:, 0] < edges[:, 1]
-    keys = undirected(edges)
-    order = np.argsort(keys, kind="stable")
-    starts = np.flatnonzero(np.diff(keys[order], prepend=-1, append=-1))
-    pairs = starts[:-1][np.diff(starts) == 2]  # first of two equal edges
-    one, two = order[pairs], order[pairs + 1]
-    return owners[one], owners[two], ascending[one] != ascending[two]
+@compiled
+def _turn_pieces(faces: IntArray, of_faces: IntArray, n_faces: IntArray, flipped: BoolArray) -> bool:
+    """Find the faces to turn; return whether a piece has one side only."""
+    parents, turns = np.arange(len(faces)), np.zeros(len(faces), dtype=np.int64)
+    contradicted = np.zeros(len(faces), dtype=np.bool_)
+    met = np.full(len(n_faces), -1)  # the first corner that was met at each edge
+    for corner in range(faces.size):
+        edge = of_faces[corner // 3, corner % 3]
+        if n_faces[edge] == 2 and met[edge] >= 0:
+            agree = _start(faces, corner) != _start(faces, met[edge])
+            _join(parents, turns, contradicted, corner // 3, met[edge] // 3, 0 if agree else 1)
+        met[edge] = corner
+    balance = np.zeros(len(faces), dtype=np.int64)  # faces as the first one less turned ones, by the first
+    for face in range(len(faces)):
+        first, turn = _root(parents, turns, face)
+        balance[first] += 1 - 2 * turn
+    for face in range(len(faces)):
+        first, turn = _root(parents, turns, face)
+        if not contradicted[first]:
+            flipped[face] = (turn == 1) == (balance[first] >= 0)
+    return bool(contradicted.any())
+
+
+@compiled
+def _start(faces: IntArray, corner: int) -> int:
+    return int(faces[corner // 3, corner % 3])
+
+
+@compiled
+def _root(parents: IntArray, turns: IntArray, face: int) -> tuple[int, int]:
+    """Return the first face of a piece, and whether (1) a face is turned relative to it."""
+    turn, member = 0, face
+    while parents[member] != member:
+        turn ^= turns[member]
+        member = parents[member]
+    root, rest = member, turn
+    while parents[face] != root and face != root:  # let the way be short next time
+        above, step = parents[face], turns[face]
+        parents[face], turns[face] = root, rest
+        rest ^= step
+        face = above
+    return root, turn
+
+
+@compiled
+def _join(
+    parents: IntArray, turns: IntArray, contradicted: BoolArray, one: int, other: int, differ: int
+) -> None:
+    """Join the pieces of two faces that are turned alike (0) or not (1)."""
+    first, first_turn = _root(parents, turns, one)
+    second, second_turn = _root(parents, turns, other)
+    differ ^= first_turn ^ second_turn
+    if first == second:
+        contradicted[first] |= differ == 1
+        return
+    low, high = min(first, second), max(first, second)
+    parents[high], turns[high] = low, differ
+    contradicted[low] |= contradicted[high]

@@ -3,12 +3,14 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from worker.arrays import BoolArray, FloatArray, IntArray
+from worker.compiled import compiled
 from worker.errors import Code, MeshError
-from worker.geometry.orientation import face_edges, flipped_faces, undirected
+from worker.geometry.edges import Edges, find_edges
+from worker.geometry.orientation import flipped_faces
+from worker.geometry.pieces import count_components
+from worker.geometry.welding import first_equal_rows, weld
 from worker.reading.mesh import Mesh
 
 FLATNESS = 1e-13  # a triangle is empty where twice its area is this part of its longest edge squared
@@ -46,12 +48,13 @@ def repair(mesh: Mesh) -> Repaired:
     faces = welded[mesh.faces]
     kept, warnings = _kept_faces(vertices, faces)
     faces = faces[kept]
-    flipped, orientable = flipped_faces(faces)
+    edges = find_edges(faces)
+    flipped, orientable = flipped_faces(faces, edges)
     corners = np.tile(np.arange(3), (len(faces), 1))
     corners[flipped] = [0, 2, 1]
     used, faces = _renumbered(np.take_along_axis(faces, corners, axis=1), len(vertices))
     components = count_components(faces, used.size)
-    warnings += _loose(welded, used) + _described(faces, flipped, orientable, components)
+    warnings += _loose(welded, used) + _described(edges, flipped, orientable, components)
     return Repaired(
         vertices=vertices[used],
         faces=faces,
@@ -66,25 +69,6 @@ def _centred(vertices: FloatArray) -> FloatArray:
     """Subtract the mean: far from the origin, areas would drown in rounding."""
     centred: FloatArray = vertices - vertices.mean(axis=0)
     return centred
-
-
-def weld(vertices: FloatArray) -> IntArray:
-    """Return for each vertex the first with exactly the same position: (n, 3) → (n,).
-
-    A negative zero equals zero.
-    """
-    return first_equal_rows(vertices + 0.0)
-
-
-def first_equal_rows(rows: FloatArray | IntArray) -> IntArray:
-    """Return for each row the first that equals it: (n, k) → (n,)."""
-    order = np.lexsort(rows.T)  # stable: equal rows stay in order
-    ordered = rows[order]
-    fresh = np.ones(len(rows), dtype=np.bool_)
-    fresh[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
-    first = np.empty(len(rows), dtype=np.int64)
-    first[order] = order[fresh][np.cumsum(fresh) - 1]
-    return first
 
 
 def _kept_faces(vertices: FloatArray, faces: IntArray) -> tuple[BoolArray, list[str]]:
@@ -104,22 +88,19 @@ def _kept_faces(vertices: FloatArray, faces: IntArray) -> tuple[BoolArray, list[
     ]
 
 
+@compiled
 def empty_faces(vertices: FloatArray, faces: IntArray) -> BoolArray:
     """Return which faces have no area: (n, 3), (m, 3) → (m,)."""
-    a, b, c = (vertices[faces[:, corner]] for corner in range(3))
-    edges = np.stack([b - a, c - b, a - c])  # (3, m, 3)
-    longest = (edges**2).sum(axis=2).max(axis=0)  # squared
-    doubled = np.linalg.norm(np.cross(edges[0], edges[1]), axis=1)
-    empty: BoolArray = doubled <= FLATNESS * longest
+    empty = np.empty(len(faces), dtype=np.bool_)
+    for face in range(len(faces)):
+        a, b, c = vertices[faces[face, 0]], vertices[faces[face, 1]], vertices[faces[face, 2]]
+        x, y, z = b[0] - a[0], b[1] - a[1], b[2] - a[2]
+        u, v, w = c[0] - b[0], c[1] - b[1], c[2] - b[2]
+        longest = max(x * x + y * y + z * z, u * u + v * v + w * w)
+        longest = max(longest, (x + u) ** 2 + (y + v) ** 2 + (z + w) ** 2)  # squared
+        p, q, r = y * w - z * v, z * u - x * w, x * v - y * u
+        empty[face] = np.sqrt(p * p + q * q + r * r) <= FLATNESS * longest
     return empty
-
-
-def count_components(faces: IntArray, n_vertices: int) -> int:
-    """Count connected pieces of a mesh whose vertices are all used."""
-    edges = face_edges(faces)
-    graph = coo_array((np.ones(len(edges), dtype=np.int8), edges.T), shape=(n_vertices, n_vertices))
-    n_components, _ = connected_components(graph, directed=False)
-    return int(n_components)
 
 
 def _renumbered(faces: IntArray, n_vertices: int) -> tuple[IntArray, IntArray]:
@@ -139,14 +120,12 @@ def _loose(welded: IntArray, used: IntArray) -> list[str]:
     ]
 
 
-def _described(faces: IntArray, flipped: BoolArray, orientable: bool, components: int) -> list[str]:
-    edges = np.sort(undirected(face_edges(faces)))
-    uses = np.diff(np.flatnonzero(np.diff(edges, prepend=-1, append=-1)))
+def _described(edges: Edges, flipped: BoolArray, orientable: bool, components: int) -> list[str]:
     return [
         *_counted(int(flipped.sum()), "faces were turned to face as their neighbours do"),
         *([] if orientable else ["the surface has only one side, like a Möbius strip"]),
-        *_counted(int((uses > 2).sum()), "edges are shared by more than two faces"),
-        *_counted(int((uses == 1).sum()), "edges are open: the surface has a border"),
+        *_counted(int((edges.n_faces > 2).sum()), "edges are shared by more than two faces"),
+        *_counted(int((edges.n_faces == 1).sum()), "edges are open: the surface has a border"),
         *([f"the mesh is in {components:,} pieces"] if components > 1 else []),
     ]
 
