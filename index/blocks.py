@@ -1,4 +1,4 @@
-"""Blocks as bytes: one a number where they are packed, float32 otherwise; by zlib where that is shorter."""
+"""Blocks as bytes: one a number where they are packed, float32 otherwise; by zlib where that is much shorter."""
 
 import struct
 import zlib
@@ -15,6 +15,7 @@ _HEADER = struct.Struct("<BI")  # kind, number of values
 _UNIT = struct.Struct("<?d")  # of a packing, after the header: rows outlive the table
 _CODES, _ZLIB = 2, 1  # bits of the kind: one byte a number, compressed
 _LEVEL = 4  # of zlib; higher ones gain nothing on such data
+_WORTH = 0.75  # of the length: unpacking takes longer than reading, so a few per cent are not worth it
 
 
 def encode_block(name: str, block: SingleArray) -> bytes:
@@ -26,7 +27,7 @@ def encode_block(name: str, block: SingleArray) -> bytes:
         kind, unit = _CODES, _UNIT.pack(packing.squared, packing.unit)
         raw = packing.pack(block).tobytes()
     compressed = zlib.compress(raw, _LEVEL)
-    if len(compressed) < len(raw):
+    if len(compressed) < _WORTH * len(raw):
         kind, raw = kind | _ZLIB, compressed
     return _HEADER.pack(kind, block.size) + unit + raw
 

@@ -80,3 +80,9 @@ def test_numbers_of_any_kind_become_single_precision() -> None:
         "a": (np.dtype("f4"), (2,)),
         "b": (np.dtype("f4"), (3,)),
     }
+
+
+def test_what_hardly_shrinks_is_not_compressed() -> None:
+    landmarks = np.random.default_rng(0).normal(size=2560).astype(np.float32)  # their exponents repeat
+    assert len(zlib.compress(landmarks.tobytes())) < landmarks.nbytes
+    assert encode_block("landmarks", landmarks)[5:] == landmarks.tobytes()
