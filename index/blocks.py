@@ -1,4 +1,4 @@
-"""Blocks as bytes: one a number where they are packed, float32 otherwise; by zlib where that is much shorter."""
+"""Blocks as bytes: one a number where they are packed, else float32; by zlib where that is much shorter."""
 
 import struct
 import zlib
