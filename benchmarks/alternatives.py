@@ -8,6 +8,7 @@ from benchmarks.variants import (
     CURVE_BLOCKS,
     CURVES,
     DEFAULTS,
+    EVEN,
     HISTOGRAM,
     HISTOGRAMS,
     HKS_BAGS,
@@ -113,8 +114,9 @@ def histograms(typical: Typical) -> Iterator[Alternative]:
     """Yield bins and smoothing, vertices' mean colours in place of the surface's own, and bins joined."""
     for variant in HISTOGRAMS:
         smoothed = f"smoothed by {variant.smoothing:g}" if variant.smoothing else "not smoothed"
-        label = f"{variant.n_bins}³ bins, {smoothed}"
-        label += ", cell averages" * variant.cells + ", joined into 8³" * variant.joined
+        label = f"{variant.n_bins}³ bins, {smoothed}" + ", cell averages" * variant.cells
+        if variant.chroma:
+            label += ", joined evenly" if variant.chroma == EVEN else ", joined, finest around grey"
         yield from _compared("`colour-histogram`", HISTOGRAM, label, variant.name, typical)
 
 

@@ -106,8 +106,8 @@ def histogram_of(variant: Histogram, surface: Surface, areas: FloatArray) -> Flo
         places = (np.arange(len(lab)) + 0.5) / len(lab) * areas.sum()
         lab = surface.lab[np.searchsorted(np.cumsum(areas), places)]
     histogram = lab_histogram(lab, variant.n_bins, variant.smoothing)
-    if variant.joined:
-        return join_bins(histogram, variant.n_bins, SHIPPED.histogram_lightness, SHIPPED.histogram_chroma)
+    if variant.chroma:
+        return join_bins(histogram, variant.n_bins, SHIPPED.histogram_lightness, variant.chroma)
     return histogram
 
 

@@ -10,6 +10,7 @@ SHAPE = ("hks-0", "log-hks")  # signatures that colours do not change
 COLOURED = ("hks-0.05", "hks-0.1")  # those that they do
 LOG_HKS, HISTOGRAM, CURVES = "log-hks", "colour-histogram", "colour-curves"  # blocks of `fused`
 SHIPPED = Parameters()
+EVEN = (2,) * 8  # bins that are joined, the same for all colours
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,13 +34,13 @@ class Histogram:
     n_bins: int = SHIPPED.histogram_bins  # along each axis
     smoothing: float = SHIPPED.histogram_smoothing  # σ in bins
     cells: bool = False  # of the vertices' mean colours, not of the surface's own
-    joined: bool = False  # into the cells that the program keeps, after smoothing
+    chroma: tuple[int, ...] = ()  # bins that are joined along a and b after smoothing, where any are
 
     @property
     def name(self) -> str:
         """Of the block."""
         source = "means" if self.cells else "samples"
-        joined = ", joined" * self.joined
+        joined = f", joined by {'-'.join(map(str, self.chroma))}" * bool(self.chroma)
         return f"{HISTOGRAM}: {self.n_bins} bins, smoothed {self.smoothing:g}, {source}{joined}"
 
 
@@ -68,12 +69,13 @@ BAGS = tuple(dict.fromkeys((*SOFT_BAGS, *HKS_BAGS, *LOG_HKS_BAGS)))
 HISTOGRAMS = (
     *(Histogram(n_bins=count, smoothing=smoothing) for count in (8, 12, 16) for smoothing in (0.0, 0.7, 1.2)),
     Histogram(cells=True),
-    Histogram(joined=True),
+    Histogram(chroma=EVEN),
+    Histogram(chroma=SHIPPED.histogram_chroma),
 )
 CURVE_BLOCKS = tuple(Curves(n_bins=count, whitened=white) for white in (True, False) for count in (8, 16, 32))
 DEFAULTS: Mapping[str, str] = {
     **{signature: bag(signature).name for signature in SHAPE + COLOURED},
-    HISTOGRAM: Histogram(joined=True).name,
+    HISTOGRAM: Histogram(chroma=SHIPPED.histogram_chroma).name,
     CURVES: Curves().name,
 }  # block of a method → the variant that the program ships
 
