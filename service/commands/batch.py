@@ -1,19 +1,19 @@
 """Indexing many meshes: each is known, or accepted and waited for, or refused."""
 
-import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 
 from index.shapes import Shape, Status
 from service.commands.companions import Companions
 from service.commands.discovery import Found, Source
+from service.commands.opening import Helper
 from service.intake.submissions import receive_paths
 from service.library import Library
 from service.retrieval import accept_upload
 from worker.errors import MeshError
 
-LOOK_EVERY = 0.1  # seconds between two looks at what the worker has done
+LOOK_EVERY = 1.0  # seconds after which shapes are looked at unasked: another process may have done them
 
 
 class Result(StrEnum):
@@ -44,14 +44,14 @@ class Waiting:
 
 
 def index_sources(
-    library: Library, sources: Iterable[Source], allow_untextured: bool, wake: Callable[[], None], most: int
+    library: Library, sources: Iterable[Source], allow_untextured: bool, helper: Helper, most: int
 ) -> Iterator[Outcome]:
     """Bring every mesh into the library, in parallel through its queue.
 
     Parameters
     ----------
-    wake : callable
-        Tells the worker of a new job.
+    helper : Helper
+        The worker beside this command.
     most : int
         Shapes that wait at the same time; so few are left over when the user stops the command.
 
@@ -65,9 +65,9 @@ def index_sources(
         companions = Companions(source, library.limits)
         for mesh in source.meshes:
             yield from _accept(library, companions, mesh, allow_untextured, waiting)
-            wake()
-            yield from _settled(library, waiting, most)
-    yield from _settled(library, waiting, 0)
+            helper.wake()
+            yield from _settled(library, waiting, helper, most)
+    yield from _settled(library, waiting, helper, 0)
 
 
 def _accept(
@@ -92,9 +92,14 @@ def _accept(
     waiting.setdefault(shape.id, []).append(Waiting(mesh=mesh, new=new))
 
 
-def _settled(library: Library, waiting: dict[str, list[Waiting]], most: int) -> Iterator[Outcome]:
+def _settled(
+    library: Library, waiting: dict[str, list[Waiting]], helper: Helper, most: int
+) -> Iterator[Outcome]:
     """Yield what is final by now; wait while more than ``most`` shapes are not."""
+    if len(waiting) <= most and not helper.settled.is_set():
+        return
     while True:
+        helper.settled.clear()
         shapes = library.catalogue.get_many(waiting)
         for shape_id in list(waiting):
             shape = shapes.get(shape_id)
@@ -103,7 +108,7 @@ def _settled(library: Library, waiting: dict[str, list[Waiting]], most: int) -> 
                     yield _final(each, shape)
         if len(waiting) <= most:
             return
-        time.sleep(LOOK_EVERY)
+        helper.settled.wait(LOOK_EVERY)
 
 
 def _final(each: Waiting, shape: Shape | None) -> Outcome:

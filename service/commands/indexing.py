@@ -49,10 +49,10 @@ def _run(
     outcomes = []
     with contextlib.ExitStack() as stack:
         library = stack.enter_context(opened(settings, make=True))
-        wake = stack.enter_context(working(library))
+        helper = stack.enter_context(working(library))
         advance = stack.enter_context(progress_bar("Indexing", total))
         most = AHEAD * max(settings.workers, 1)
-        for outcome in index_sources(library, sources, allow_untextured, wake, most):
+        for outcome in index_sources(library, sources, allow_untextured, helper, most):
             outcomes.append(outcome)
             advance()
             if as_json:

@@ -3,6 +3,7 @@
 import contextlib
 import threading
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,14 @@ from service.jobs.pool import ProcessPerJob
 from service.jobs.workers import Worker, process_name
 from service.library import Library
 from service.settings import Settings
+
+
+@dataclass(frozen=True, kw_only=True)
+class Helper:
+    """A worker beside a command."""
+
+    wake: Callable[[], None]  # tells it of a new job
+    settled: threading.Event  # set whenever it has ended a job
 
 
 def settings_for(data_dir: Path, **changes: Any) -> Settings:
@@ -50,17 +59,24 @@ def pool_for(settings: Settings, preload: Sequence[str] = ()) -> Iterator[Proces
 
 
 @contextlib.contextmanager
-def working(library: Library) -> Iterator[Callable[[], None]]:
-    """Work on the queue beside the command; yield what wakes the worker for a new job.
+def working(library: Library) -> Iterator[Helper]:
+    """Work on the queue beside the command.
 
     Jobs that are not finished at the end go back to the queue.
     """
     with pool_for(library.settings) as pool:
-        worker = Worker(library, pool, slots=max(library.settings.workers, 1), name=process_name())
+        settled = threading.Event()
+        worker = Worker(
+            library,
+            pool,
+            slots=max(library.settings.workers, 1),
+            name=process_name(),
+            observe=lambda *_: settled.set(),
+        )
         thread = threading.Thread(target=worker.run, name="worker")
         thread.start()
         try:
-            yield worker.wake
+            yield Helper(wake=worker.wake, settled=settled)
         finally:
             worker.stop()
             pool.shutdown(cancel_futures=True)

@@ -1,14 +1,26 @@
 """What a job computes, in the child: stored files in, `Description` out."""
 
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
+from index.vocabulary import Vocabulary
+from service.quantisation import quantise
+from worker.arrays import SingleArray
 from worker.describe import Description, describe
 from worker.parameters import Parameters
 from worker.reading.limits import Limits
 from worker.reading.upload import Upload
 
 Describe = Callable[[Mapping[str, Path], bool, Parameters, Limits], Description]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class InWords:
+    """The blocks of a description that depend on a vocabulary."""
+
+    vocabulary_id: str
+    blocks: Mapping[str, SingleArray]  # as from `quantise`
 
 
 class FilesOnDisk(Mapping[str, bytes]):
@@ -52,3 +64,27 @@ def describe_files(
     """
     upload = Upload(files=FilesOnDisk(paths), allow_untextured=allow_untextured)
     return describe(upload, parameters, limits)
+
+
+def describe_in_words(
+    describe: Describe,
+    vocabulary: Vocabulary | None,
+    paths: Mapping[str, Path],
+    allow_untextured: bool,
+    parameters: Parameters,
+    limits: Limits,
+) -> tuple[Description, InWords | None]:
+    """Describe an upload and quantise what came out, so that the parent only has to store it.
+
+    Parameters
+    ----------
+    describe : callable
+        As `describe_files`, which takes the other arguments.
+    vocabulary : Vocabulary, optional
+        The active one, if there is any.
+    """
+    description = describe(paths, allow_untextured, parameters, limits)
+    if vocabulary is None or vocabulary.fingerprint != description.fingerprint:
+        return description, None
+    blocks = quantise(description.signatures, vocabulary)
+    return description, InWords(vocabulary_id=vocabulary.id, blocks=blocks)

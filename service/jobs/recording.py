@@ -5,6 +5,7 @@ from dataclasses import asdict
 from index.errors import CatalogueError, LeaseLost, ShapeNotFound, VocabularyChanged
 from index.jobs import Job
 from index.shapes import Shape
+from service.jobs.describing import InWords
 from service.library import Library
 from service.quantisation import quantise
 from service.storage import PREVIEW, THUMBNAIL, derived_key, save_signatures
@@ -19,8 +20,16 @@ UNEXPECTED = "unexpected"  # a defect of ours
 UNEXPECTED_DETAIL = "the mesh could not be described, for a reason of our own; the log says more"
 
 
-def record_description(library: Library, job: Job, description: Description) -> Shape:
+def record_description(
+    library: Library, job: Job, description: Description, in_words: InWords | None = None
+) -> Shape:
     """Store what was computed: files first, then everything else in one transaction.
+
+    Parameters
+    ----------
+    in_words : InWords, optional
+        The description in the words of the vocabulary that was active when the job began; where another is
+        active now it is quantised anew.
 
     Raises
     ------
@@ -32,23 +41,26 @@ def record_description(library: Library, job: Job, description: Description) -> 
         library.files.put(derived_key(shape_id, THUMBNAIL), description.thumbnail)
         library.files.put(derived_key(shape_id, PREVIEW), description.preview)
         save_signatures(library.files, shape_id, description.signatures)
-        return _record(library, job, description)
+        return _record(library, job, description, in_words)
     except (LeaseLost, ShapeNotFound):
         if shape_id not in library.catalogue.get_many([shape_id]):
             library.files.delete_all(f"shapes/{shape_id}")
         raise
 
 
-def _record(library: Library, job: Job, description: Description) -> Shape:
+def _record(library: Library, job: Job, description: Description, in_words: InWords | None) -> Shape:
     for _ in range(ATTEMPTS):
         vocabulary = active_vocabulary(library)
+        if in_words is None or in_words.vocabulary_id != vocabulary.id:
+            blocks = quantise(description.signatures, vocabulary)
+            in_words = InWords(vocabulary_id=vocabulary.id, blocks=blocks)
         try:
             return library.catalogue.record_ready(
                 job,
                 facts=asdict(description.facts),
                 fingerprint=description.fingerprint,
                 blocks=description.blocks,
-                quantised=quantise(description.signatures, vocabulary),
+                quantised=in_words.blocks,
                 vocabulary_id=vocabulary.id,
             )
         except VocabularyChanged:

@@ -11,12 +11,14 @@ from dataclasses import dataclass
 
 from index.errors import CatalogueBusy, LeaseLost, ShapeNotFound, StorageFull
 from index.jobs import Job
+from index.vocabulary import Vocabulary
 from service.jobs.child import ChildError
-from service.jobs.describing import Describe, describe_files
+from service.jobs.describing import Describe, InWords, describe_files, describe_in_words
 from service.jobs.pool import ChildDied, PoolStopped
 from service.jobs.recording import GAVE_UP, UNEXPECTED, UNEXPECTED_DETAIL, record_description
 from service.jobs.sweeping import sweep
 from service.library import Library
+from service.vocabularies import NoVocabulary, active_vocabulary
 from worker.describe import Description
 from worker.errors import MeshError
 
@@ -24,6 +26,9 @@ log = logging.getLogger(__name__)
 
 Observer = Callable[[str, float], None]  # outcome ("ready", or a code), seconds
 
+Described = tuple[Description, InWords | None]
+
+AHEAD = 1  # jobs claimed beyond those that run, so that none waits while others are recorded
 TRIES = 2  # of a job whose process dies, in one claim
 
 
@@ -72,7 +77,7 @@ class Worker:
         self._library, self._executor = library, executor
         self._slots, self._name = slots, name
         self._describe, self._observe = describe, observe
-        self._running: dict[Future[Description], Attempt] = {}
+        self._running: dict[Future[Described], Attempt] = {}
         self._wake, self._stopping = threading.Event(), threading.Event()
         self._next_heartbeat = 0.0
 
@@ -113,7 +118,7 @@ class Worker:
         self._heartbeat()
 
     def _claim(self) -> None:
-        while len(self._running) < self._slots and not self._stopping.is_set():
+        while len(self._running) < self._slots + AHEAD and not self._stopping.is_set():
             job = self._library.queue.claim(self._name, self._library.settings.lease_seconds)
             if job is None:
                 return
@@ -127,11 +132,23 @@ class Worker:
             return
         paths = {file.name: library.files.path(file.key) for file in shape.files}
         future = self._executor.submit(
-            self._describe, paths, shape.allow_untextured, library.parameters, library.limits
+            describe_in_words,
+            self._describe,
+            self._vocabulary(),
+            paths,
+            shape.allow_untextured,
+            library.parameters,
+            library.limits,
         )
         self._running[future] = Attempt(job=job, tries=tries, started=time.monotonic())
 
-    def _finished(self) -> list[Future[Description]]:
+    def _vocabulary(self) -> Vocabulary | None:
+        try:
+            return active_vocabulary(self._library)
+        except NoVocabulary:  # may come while the job runs
+            return None
+
+    def _finished(self) -> list[Future[Described]]:
         patience = self._library.settings.poll_seconds
         if not self._running:
             self._wake.wait(patience)
@@ -139,7 +156,7 @@ class Worker:
         done, _ = wait(self._running, timeout=patience, return_when=FIRST_COMPLETED)
         return list(done)
 
-    def _settle(self, future: Future[Description], attempt: Attempt) -> None:
+    def _settle(self, future: Future[Described], attempt: Attempt) -> None:
         """Record one outcome."""
         try:
             outcome = self._record(future, attempt)
@@ -154,10 +171,10 @@ class Worker:
         if outcome is not None:
             self._observe(outcome, time.monotonic() - attempt.started)
 
-    def _record(self, future: Future[Description], attempt: Attempt) -> str | None:
+    def _record(self, future: Future[Described], attempt: Attempt) -> str | None:
         job = attempt.job
         try:
-            record_description(self._library, job, future.result())
+            record_description(self._library, job, *future.result())
             return "ready"
         except MeshError as error:
             return self._fail(job, error.code, error.detail)

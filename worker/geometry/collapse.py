@@ -109,7 +109,7 @@ def _link(surface: _Surface) -> None:
 @compiled
 def _run(surface: _Surface, n_vertices: int, longest: float, growth: float, scatter: int) -> None:
     """Collapse edges up to a level, then up to a higher one; all in squared lengths."""
-    left, searches, point = np.count_nonzero(surface.first >= 0), 0, np.empty(3)
+    left, searches, point = len(surface.first), 0, np.empty(3)
     level = min(_mean_square(surface) / 4.0, longest)
     while left > n_vertices:
         shortest = np.inf  # of the edges beyond this level
@@ -175,8 +175,10 @@ def _try(surface: _Surface, kept: int, gone: int, point: FloatArray, search: int
         surface.penalties[kept] *= PENALTY
         surface.penalties[gone] *= PENALTY
         return False
-    surface.vertices[kept] = point
-    surface.quadrics[kept] += surface.quadrics[gone]
+    for axis in range(3):
+        surface.vertices[kept, axis] = point[axis]
+    for entry in range(9):
+        surface.quadrics[kept, entry] += surface.quadrics[gone, entry]
     surface.border[kept] |= surface.border[gone]
     _merge(surface, kept, gone)
     return True
