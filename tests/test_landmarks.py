@@ -31,7 +31,7 @@ OCTAVES = slice(SHORTER, -LONGER, RUNGS)  # of LADDER, without a shift
 def ladder_of(vertices: FloatArray, faces: IntArray) -> FloatArray:
     """Return log h_t of every vertex at the times of LADDER, from all eigenpairs."""
     stiffness, mass = cotangent_laplacian(vertices, faces)
-    pairs = solve_eigenpairs(stiffness, mass, np.inf, most=len(vertices))
+    pairs = solve_eigenpairs(vertices, stiffness, mass, np.inf, most=len(vertices))
     return np.log(heat_kernel_signatures(pairs.eigenvalues, pairs.eigenfunctions, np.array(LADDER)))
 
 

@@ -16,7 +16,7 @@ PARAMETERS = Parameters()
 
 
 def hks(points: FloatArray, faces: IntArray) -> FloatArray:
-    pairs = solve_eigenpairs(*cotangent_laplacian(points, faces), PARAMETERS.cutoff)
+    pairs = solve_eigenpairs(points, *cotangent_laplacian(points, faces), PARAMETERS.cutoff)
     return heat_kernel_signatures(pairs.eigenvalues, pairs.eigenfunctions, np.array(PARAMETERS.times))
 
 

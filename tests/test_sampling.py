@@ -22,3 +22,15 @@ def test_cells_share_out_the_whole_area() -> None:
     cells = cell_areas(points, farthest_points(points, 20), areas)
     assert (cells > 0).all()
     np.testing.assert_allclose(cells.sum(), areas.sum())
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(2, 400))
+def test_picking_by_buckets_is_picking_by_all_distances(seed: int, n_points: int) -> None:
+    points = (
+        np.random.default_rng(seed).integers(0, 12, (n_points, 3)).astype(np.float64)
+    )  # many are equally far
+    samples = farthest_points(points, n_points)
+    nearest = np.full(n_points, np.inf)
+    for k in range(1, len(samples)):
+        nearest = np.minimum(nearest, np.sum((points - points[samples[k - 1]]) ** 2, axis=1))
+        assert samples[k] == nearest.argmax()

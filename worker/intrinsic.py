@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from worker.arrays import FloatArray, IntArray
-from worker.descriptors.diffusion import distance_quantiles, joint_distances
+from worker.descriptors.diffusion import distance_quantiles
 from worker.descriptors.landmarks import LADDER, log_heat_ladder
 from worker.descriptors.signatures import heat_kernel_signatures, log_differences, log_of
 from worker.geometry.sampling import cell_areas, farthest_points
@@ -75,5 +75,4 @@ def distribution(
 ) -> FloatArray:
     """Return the quantiles of the diffusion distances, joint over the spectra, between sampled vertices."""
     sampled = [(spectrum.eigenvalues, spectrum.eigenfunctions[samples]) for spectrum in spectra]
-    distances = joint_distances(sampled, parameters.distance_times)
-    return distance_quantiles(distances, shares, parameters.distance_quantiles)
+    return distance_quantiles(sampled, parameters.distance_times, shares, parameters.distance_quantiles)

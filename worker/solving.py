@@ -33,7 +33,7 @@ def solve_joint(
     else:
         mass = areas_of(points, faces)
         stiffness, mass = mesh_laplacian(points, mass, parameters.kernel_width, parameters.kernel_tail)
-    return solve_eigenpairs(stiffness, mass, cutoff, parameters.eigenpairs)
+    return solve_eigenpairs(vertices, stiffness, mass, cutoff, parameters.eigenpairs)
 
 
 def areas_of(points: FloatArray, faces: IntArray) -> FloatArray:

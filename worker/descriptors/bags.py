@@ -4,6 +4,8 @@ import numpy as np
 
 from worker.arrays import FloatArray
 
+ROWS = 512  # points taken at once: their shares stay in a processor's cache
+
 
 def bag_of_features(
     signatures: FloatArray, areas: FloatArray, words: FloatArray, softness: float
@@ -31,17 +33,20 @@ def bag_of_features(
     """
     if not len(signatures):
         return np.zeros(len(words))
-    shares = soft_assignment(signatures, words, softness)  # (n, v)
-    return np.asarray(areas @ shares / areas.sum())
+    total = np.zeros(len(words))
+    for start in range(0, len(signatures), ROWS):
+        rows = slice(start, start + ROWS)
+        total += areas[rows] @ soft_assignment(signatures[rows], words, softness)
+    return np.asarray(total / areas.sum())
 
 
 def soft_assignment(signatures: FloatArray, words: FloatArray, softness: float) -> FloatArray:
     """Return each point's shares in the words, (n, v); rows sum to 1. Arguments as for `bag_of_features`."""
     centre = words.mean(axis=0)  # differences of large numbers lose digits
     points, words = signatures - centre, words - centre
-    squares = np.sum(points**2, axis=1)[:, None] + np.sum(words**2, axis=1) - 2.0 * points @ words.T
+    squares = np.sum(words**2, axis=1) - 2.0 * points @ words.T  # less what a point's own distances share
     squares -= squares.min(axis=1, keepdims=True)
     if softness == 0:
         return np.asarray(np.eye(len(words))[np.argmin(squares, axis=1)])
-    shares = np.exp(-squares / (2.0 * softness**2))
-    return np.asarray(shares / shares.sum(axis=1, keepdims=True))
+    shares = np.exp((squares * (-0.5 / softness**2)).astype(np.float32))  # single: to 1e-6 of a share
+    return np.asarray(shares / shares.sum(axis=1, keepdims=True), np.float64)

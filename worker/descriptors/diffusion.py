@@ -1,95 +1,66 @@
-"""Diffusion distances between the points of a surface, and their distribution.
+"""How diffusion distances between the points of a surface are distributed.
 
-Distances are symmetric: they are computed by blocks of rows, from the diagonal to the right, small enough to
-stay in a processor's cache.
+Distances are symmetric: they are computed by blocks of rows, from the diagonal to the right, and counted as
+they come; the whole is never held.
 """
 
 from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from worker.arrays import FloatArray, SingleArray
+from worker.arrays import FloatArray, IntArray, SingleArray
+from worker.compiled import compiled
 
-FINE_BINS = 1 << 16  # of the histogram from which quantiles are read
-ROWS = 128  # of a block
-FADED = 1e-9  # decay from which an eigenfunction is lost in the rounding of single numbers
+SHARPNESS = 13  # binary digits of a distance, after the first, that its bin of the histogram tells
+OCTAVES = 30  # of distances that the bins cover; shorter ones count as 0
+FINE_BINS = OCTAVES << SHARPNESS
+ROWS = 64  # of a block
+FADED = 1e-4  # decay, relative to the slowest, from which a function is lost in single numbers
 
 Spectrum = tuple[FloatArray, FloatArray]  # eigenvalues (k,), eigenfunctions at the sampled points (s, k)
+Coordinates = tuple[SingleArray, SingleArray, SingleArray]  # (s, k), −2 times those (k, s), norms (s,)
 
 
-def diffusion_distances(eigenvalues: FloatArray, eigenfunctions: FloatArray, time: float) -> SingleArray:
-    """Return d_t(x, x') = (Σ_{i>0} e^{−2 λ_i t} (φ_i(x) − φ_i(x'))²)^½ for all pairs.
+def distance_quantiles(
+    spectra: Sequence[Spectrum], times: tuple[float, ...], areas: FloatArray, n_levels: int
+) -> FloatArray:
+    """Return the diffusion distances below which given shares of the pairs of area lie.
 
-    Coifman and Lafon (2006); Kovnatsky et al. (2011), equation 7, whose second line drops the 2.
-
-    Parameters
-    ----------
-    eigenvalues : (k,) array
-    eigenfunctions : (s, k) array
-        At the sampled points.
-    time : float
-        t, squared units.
-
-    Returns
-    -------
-    (s, s) array
-        Symmetric, 0 on the diagonal, in 1 / units; relative precision of single numbers.
-    """
-    return joint_distances([(eigenvalues, eigenfunctions)], (time,))
-
-
-def joint_distances(spectra: Sequence[Spectrum], times: tuple[float, ...]) -> SingleArray:
-    """Return the mean over times of the product over operators of diffusion distances.
-
-    Kovnatsky et al. (2011), section 5: one operator is the geometric case, one for each η the joint one.
+    d_t(x, x') = (Σ_{i>0} e^{−2 λ_i t} (φ_i(x) − φ_i(x'))²)^½ (Coifman and Lafon 2006; Kovnatsky et al. 2011,
+    equation 7, whose second line drops the 2). The distance is the mean over times of the product over
+    operators (Kovnatsky et al., section 5): one operator is the geometric case, one for each η the joint one.
 
     Parameters
     ----------
     spectra : sequence of (eigenvalues (k,), eigenfunctions (s, k))
-        One for each η.
+        At the sampled points, one for each η; eigenvalues ascend.
     times : tuple of float
-
-    Returns
-    -------
-    (s, s) array
-    """
-    n_points = len(spectra[0][1])
-    distances = np.empty((n_points, n_points), dtype=np.float32)
-    for start, block in zip(_starts(n_points), _blocks(spectra, times), strict=True):
-        rows, right = slice(start, start + ROWS), slice(start + ROWS, None)
-        corner = np.triu(
-            block[:, : len(block)], 1
-        )  # rounding need not be symmetric, nor leave 0 on the diagonal
-        distances[rows, rows] = corner + corner.T
-        distances[rows, right] = block[:, len(block) :]
-        distances[right, rows] = block[:, len(block) :].T
-    return distances
-
-
-def distance_quantiles(distances: SingleArray, areas: FloatArray, n_levels: int) -> FloatArray:
-    """Return the distances below which given shares of the pairs of area lie.
-
-    Parameters
-    ----------
-    distances : (s, s) array
-        Symmetric, 0 on the diagonal.
+        t, squared units.
     areas : (s,) array
-        Area that each sample stands for; a pair weighs the product of two.
+        Area that each sample stands for; a pair weighs the product of two, each point with itself included.
     n_levels : int
         Levels (i + ½) / n_levels.
 
     Returns
     -------
     (n_levels,) array
-        Ascending: the inverse of the cumulative distribution F.
+        Ascending: the inverse of the cumulative distribution F, in 1 / units to the power of the operators.
     """
-    longest = float(distances.max())
+    shares = areas / areas.sum()
+    systems = [[_coordinates(*spectrum, time) for spectrum in spectra] for time in times]
+    longest = sum(np.prod([2.0 * norms.max() ** 0.5 for _, _, norms in of_time]) for of_time in systems)
     if longest == 0.0:
         return np.zeros(n_levels)
-    counts = _pair_histogram(distances, areas / areas.sum(), longest)
+    lowest = max((int(np.float32(longest).view(np.int32)) >> (23 - SHARPNESS)) + 2 - FINE_BINS, 0)
+    counts = np.zeros(FINE_BINS)
+    for start, block in _blocks(systems):
+        _count(block.view(np.int32), shares[start:], lowest, counts)
+    counts[0] += shares @ shares
     cumulative = np.concatenate([[0.0], np.cumsum(counts)])
     levels = (np.arange(n_levels) + 0.5) / n_levels
-    return np.interp(levels, cumulative, np.linspace(0.0, longest, FINE_BINS + 1))
+    edges = ((np.arange(FINE_BINS + 1) + lowest) << (23 - SHARPNESS)).astype(np.int32).view(np.float32)
+    edges[0] = 0.0
+    return np.interp(levels, cumulative, edges / len(times))
 
 
 def distribution_on_grid(quantiles: FloatArray, grid: FloatArray) -> FloatArray:
@@ -112,57 +83,70 @@ def distribution_on_grid(quantiles: FloatArray, grid: FloatArray) -> FloatArray:
     return np.asarray(np.interp(grid, quantiles, levels, left=0.0, right=1.0) / len(grid))
 
 
-def _starts(n_points: int) -> range:
-    """Return the first row of each block; its columns start there as well."""
-    return range(0, n_points, ROWS)
+def _blocks(systems: list[list[Coordinates]]) -> Iterator[tuple[int, SingleArray]]:
+    """Yield the first row of each block and its distances times the number of times, (≤ ROWS, s − start).
+
+    Systems of coordinates are listed by time, and then by operator.
+    """
+    all_norms = [np.stack([norms for _, _, norms in of_time]) for of_time in systems]  # (operators, s) each
+    n_operators, n_points = all_norms[0].shape
+    buffer = np.empty((n_operators + 1) * ROWS * n_points, np.float32)
+    for start in range(0, n_points, ROWS):
+        rows, shape = slice(start, start + ROWS), (min(ROWS, n_points - start), n_points - start)
+        distances, *products = buffer[: (n_operators + 1) * shape[0] * shape[1]].reshape(-1, *shape)
+        distances[:] = 0.0
+        for of_time, norms in zip(systems, all_norms, strict=True):
+            for (points, transposed, _), product in zip(of_time, products, strict=True):
+                np.matmul(points[rows], transposed[:, start:], out=product)
+            _add(buffer[shape[0] * shape[1] :], norms[:, start:].copy(), distances)
+        yield start, distances
 
 
-def _blocks(spectra: Sequence[Spectrum], times: tuple[float, ...]) -> Iterator[SingleArray]:
-    """Yield joint distances, (≤ ROWS, s − start) for each start, noise on the diagonal."""
-    systems = [[_coordinates(*spectrum, time) for spectrum in spectra] for time in times]
-    for start in _starts(len(spectra[0][1])):
-        products = [_product(coordinates, start) for coordinates in systems]
-        for product in products[1:]:
-            products[0] += product
-        yield products[0] / np.float32(len(times))
+@compiled
+def _add(products: SingleArray, norms: SingleArray, distances: SingleArray) -> None:
+    """Add the roots of the products over operators of ‖x‖² + ‖x'‖² − 2 x·x', in place.
+
+    Parameters
+    ----------
+    products : (operators · r · c,) array
+        −2 x·x'; overwritten. More may follow.
+    norms : (operators, c) array
+        Of the columns, of which the first r are the rows.
+    distances : (r, c) array
+    """
+    n_rows, n_columns = distances.shape
+    zero = np.float32(0.0)
+    for i in range(n_rows):
+        line = products[i * n_columns : (i + 1) * n_columns]
+        for factor in range(len(norms)):
+            begin = (factor * n_rows + i) * n_columns
+            row, of_row, own = products[begin : begin + n_columns], norms[factor], norms[factor, i]
+            for j in range(n_columns):
+                square = row[j] + (of_row[j] + own)
+                square = square if square > zero else zero
+                line[j] = square if factor == 0 else line[j] * square
+        for j in range(n_columns):
+            distances[i, j] += np.sqrt(line[j])
 
 
-def _product(systems: list[tuple[SingleArray, SingleArray]], start: int) -> SingleArray:
-    """Return the product of the distances in some systems of coordinates, one block of it."""
-    squares = _squares(*systems[0], start)
-    for coordinates in systems[1:]:
-        squares *= _squares(*coordinates, start)
-    return np.asarray(np.sqrt(squares, out=squares))
+@compiled
+def _count(bits: IntArray, shares: FloatArray, lowest: int, counts: FloatArray) -> None:
+    """Add the pairs right of the diagonal to a histogram, each of them twice.
+
+    Bits of positive single numbers, read as an integer, ascend with them: first exponent, then digits.
+    """
+    n_rows, n_columns = bits.shape
+    for i in range(n_rows):
+        own = 2.0 * shares[i]
+        for j in range(i + 1, n_columns):
+            counts[max((bits[i, j] >> (23 - SHARPNESS)) - lowest, 0)] += own * shares[j]
 
 
-def _coordinates(
-    eigenvalues: FloatArray, eigenfunctions: FloatArray, time: float
-) -> tuple[SingleArray, SingleArray]:
-    """Return points (s, k) whose distances are d_t, and their squared norms (s,)."""
+def _coordinates(eigenvalues: FloatArray, eigenfunctions: FloatArray, time: float) -> Coordinates:
+    """Return points (s, k) whose distances are d_t, −2 times their transpose (k, s), and squared norms (s,)."""
     decay = np.exp(-eigenvalues * time)
-    kept = decay > FADED
+    kept = decay >= FADED * decay[:2].min(initial=1.0)  # the first is that of a constant
     coordinates = eigenfunctions[:, kept] * decay[kept]  # constant functions cancel in the differences
     coordinates = (coordinates - coordinates.mean(axis=0)).astype(np.float32)
-    return coordinates, np.square(coordinates).sum(axis=1)
-
-
-def _squares(coordinates: SingleArray, norms: SingleArray, start: int) -> SingleArray:
-    """Return the squared distances of one block."""
-    rows = slice(start, start + ROWS)
-    squares = (np.float32(-2.0) * coordinates[rows]) @ coordinates[start:].T
-    squares += norms[start:]
-    squares += norms[rows, None]
-    return np.asarray(np.maximum(squares, 0.0, out=squares))
-
-
-def _pair_histogram(distances: SingleArray, shares: FloatArray, longest: float) -> FloatArray:
-    """Weigh the pairs in fine bins up to the longest distance: each point with itself, the others twice."""
-    counts = np.zeros(FINE_BINS)
-    counts[0] = shares @ shares
-    for start in _starts(len(shares)):
-        block = distances[start : start + ROWS, start:]
-        bins = np.minimum((block * np.float32(FINE_BINS / longest)).astype(np.int64), FINE_BINS - 1)
-        weights = np.outer(2.0 * shares[start : start + ROWS], shares[start:])
-        weights[:, : len(block)] = np.triu(weights[:, : len(block)], 1)
-        counts += np.bincount(bins.ravel(), weights.ravel(), FINE_BINS)
-    return counts
+    norms = np.square(coordinates).sum(axis=1)
+    return coordinates, np.ascontiguousarray(np.float32(-2.0) * coordinates.T), norms

@@ -3,6 +3,7 @@
 import numpy as np
 
 from worker.arrays import FloatArray, IntArray
+from worker.compiled import compiled
 
 
 def edge_lengths(points: FloatArray, faces: IntArray) -> FloatArray:
@@ -20,8 +21,20 @@ def edge_lengths(points: FloatArray, faces: IntArray) -> FloatArray:
     (m, 3) array
         Column i is the length from corner i to corner i + 1.
     """
-    corners = points[faces]  # (m, 3, d)
-    return norms(corners[:, [1, 2, 0]] - corners)
+    return _edge_lengths(np.ascontiguousarray(points, np.float64), np.ascontiguousarray(faces))
+
+
+@compiled
+def _edge_lengths(points: FloatArray, faces: IntArray) -> FloatArray:
+    lengths = np.empty((len(faces), 3))
+    for face in range(len(faces)):
+        for corner in range(3):
+            start, end, square = faces[face, corner], faces[face, (corner + 1) % 3], 0.0
+            for axis in range(points.shape[1]):
+                difference = points[end, axis] - points[start, axis]
+                square += difference * difference
+            lengths[face, corner] = np.sqrt(square)
+    return lengths
 
 
 def triangle_areas(lengths: FloatArray) -> FloatArray:

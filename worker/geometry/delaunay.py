@@ -6,16 +6,16 @@ A half-edge has the number 3 f + i: it runs from corner i of face f to corner i 
 
 import numpy as np
 
-from worker.arrays import BoolArray, FloatArray, IntArray
+from worker.arrays import FloatArray, IntArray
+from worker.compiled import compiled
 from worker.geometry.edges import stable_order
 
-ROUNDS = 200  # of flips; the mesh is as good as Delaunay long before
+FLIPS = 50  # for each edge, at most; the mesh is as good as Delaunay long before
+TINIEST = float(np.finfo(float).tiny)
 SLACK = 1e-12  # an edge is flipped only where its two cotangents sum to less than this below zero
 
 
-def intrinsic_delaunay(
-    faces: IntArray, lengths: FloatArray, rounds: int = ROUNDS
-) -> tuple[IntArray, FloatArray]:
+def intrinsic_delaunay(faces: IntArray, lengths: FloatArray) -> tuple[IntArray, FloatArray]:
     """Flip edges until their cotangent weights are not negative.
 
     Edges at a boundary, between more than two faces, or between two faces of opposite orientation stay.
@@ -34,10 +34,7 @@ def intrinsic_delaunay(
     lengths : (m, 3) array
     """
     tails, sides, twins = faces.ravel().copy(), lengths.ravel().copy(), _twins(faces)
-    for _ in range(rounds):
-        edges = _independent(_not_delaunay(sides, twins), twins)
-        if not _flip(tails, sides, twins, edges):
-            break
+    _flip_all(tails, sides, twins)
     return tails.reshape(-1, 3), sides.reshape(-1, 3)
 
 
@@ -56,79 +53,101 @@ def _twins(faces: IntArray) -> IntArray:
     return twins
 
 
-def _next(half: IntArray) -> IntArray:
+@compiled
+def _flip_all(tails: IntArray, sides: FloatArray, twins: IntArray) -> None:
+    """Flip edges (half-edges of length (3 m,) each) until none needs it, in place.
+
+    Those around a flipped edge are looked at again, the last first.
+    """
+    n = len(tails)
+    waits = np.zeros(n, np.bool_)
+    waiting = np.empty(n, np.int64)
+    n_waiting, n_flips = 0, 0
+    for half in range(n - 1, -1, -1):
+        if twins[half] > half:
+            waits[half] = True
+            waiting[n_waiting] = half
+            n_waiting += 1
+    while n_waiting > 0 and n_flips < FLIPS * n:
+        n_waiting -= 1
+        half = waiting[n_waiting]
+        waits[half] = False
+        if not _flip(tails, sides, twins, half):
+            continue
+        n_flips += 1
+        other = twins[half]
+        for edge in (_next(half), _next(_next(half)), _next(other), _next(_next(other))):
+            first = min(edge, twins[edge])
+            if first >= 0 and not waits[first]:
+                waits[first] = True
+                waiting[n_waiting] = first
+                n_waiting += 1
+
+
+@compiled
+def _next(half: int) -> int:
     return half - half % 3 + (half + 1) % 3
 
 
-def _cosine_law(a: FloatArray, b: FloatArray, c: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return cosine and sine of the angle between sides b and c, opposite to a."""
-    cosine = np.clip((b**2 + c**2 - a**2) / np.maximum(2 * b * c, np.finfo(float).tiny), -1.0, 1.0)
-    return cosine, np.sqrt(1.0 - cosine**2)
+@compiled
+def _cosine(a: float, b: float, c: float) -> float:
+    """Return the cosine of the angle between sides b and c, opposite to a."""
+    return max(-1.0, min(1.0, (b * b + c * c - a * a) / max(2.0 * b * c, TINIEST)))
 
 
-def _not_delaunay(sides: FloatArray, twins: IntArray) -> IntArray:
-    """Return one half of each edge whose opposite angles sum to more than π, the worst first."""
-    a, b, c = sides.reshape(-1, 3).T  # (m,) each
-    cosine, sine = (
-        np.stack(of_corners, axis=1).ravel()
-        for of_corners in zip(_cosine_law(a, b, c), _cosine_law(b, c, a), _cosine_law(c, a, b), strict=True)
-    )  # opposite to each half-edge
-    number = np.arange(len(twins))
-    half = np.flatnonzero((twins > number) & (twins // 3 != number // 3))
-    other = twins[half]
-    # The sine of the sum is negative where the sum is over π.
-    sine_of_sum = sine[half] * cosine[other] + cosine[half] * sine[other]
-    worst = np.flatnonzero(sine_of_sum < -SLACK)
-    return np.asarray(half[worst[np.argsort(sine_of_sum[worst], kind="stable")]])
-
-
-def _independent(half: IntArray, twins: IntArray) -> IntArray:
-    """Keep edges of which no face is shared by a better one."""
-    ranks = np.arange(len(half))
-    best = np.full(len(twins) // 3, len(half))
-    both = np.column_stack([half // 3, twins[half] // 3])
-    np.minimum.at(best, both, ranks[:, None])
-    return np.asarray(half[(best[both] == ranks[:, None]).all(axis=1)])
-
-
-def _flip(tails: IntArray, sides: FloatArray, twins: IntArray, half: IntArray) -> bool:
-    """Flip edges that share no face, in place; tell whether any was flipped.
+@compiled
+def _flip(tails: IntArray, sides: FloatArray, twins: IntArray, half: int) -> bool:
+    """Flip an edge in place where its opposite angles sum to more than π; tell whether it was flipped.
 
     Faces (a, b, c) and (b, a, d) with the edge a b become (c, d, b) and (d, c, a).
     """
     other = twins[half]
-    bc, ca, ad, db = _next(half), _next(_next(half)), _next(other), _next(_next(other))
-    diagonal = _other_diagonal(sides[half], sides[ca], sides[bc], sides[ad], sides[db])
-    keep = _makes_triangles(diagonal, sides[bc], sides[db]) & _makes_triangles(diagonal, sides[ca], sides[ad])
-    half, other, bc, ca, ad, db = (x[keep] for x in (half, other, bc, ca, ad, db))
-    c, d = tails[ca], tails[db]
-    b, a = tails[bc], tails[ad]
-    outer = np.stack([twins[db], twins[bc], twins[ca], twins[ad]])
-    lengths = np.stack([sides[db], sides[bc], sides[ca], sides[ad]])
-    own = np.stack([_next(half), _next(_next(half)), _next(other), _next(_next(other))])
-    moved = np.arange(len(twins) + 1)  # the last entry keeps −1, for boundaries
-    moved[np.stack([db, bc, ca, ad])], moved[-1] = own, -1
-    outer = moved[outer]
-    for k, tail in enumerate((d, b, c, a)):
-        tails[own[k]], sides[own[k]], twins[own[k]] = tail, lengths[k], outer[k]
-    tails[half], tails[other] = c, d
-    sides[half] = sides[other] = diagonal[keep]
-    inner = outer >= 0
-    twins[outer[inner]] = own[inner]
-    return len(half) > 0
+    if other < 0 or half // 3 == other // 3:
+        return False
+    bc, ad = _next(half), _next(other)
+    ca, db = _next(bc), _next(ad)
+    length, length_bc, length_ca, length_ad, length_db = (
+        sides[half],
+        sides[bc],
+        sides[ca],
+        sides[ad],
+        sides[db],
+    )
+    at_c, at_d = _cosine(length, length_bc, length_ca), _cosine(length, length_ad, length_db)
+    # The sine of the sum is negative where the sum is over π.
+    if np.sqrt(1.0 - at_c * at_c) * at_d + at_c * np.sqrt(1.0 - at_d * at_d) >= -SLACK:
+        return False
+    at_a, at_a_too = _cosine(length_bc, length, length_ca), _cosine(length_db, length, length_ad)
+    across = at_a * at_a_too - np.sqrt(1.0 - at_a * at_a) * np.sqrt(1.0 - at_a_too * at_a_too)
+    square = length_ca * length_ca + length_ad * length_ad - 2.0 * length_ca * length_ad * across
+    diagonal = np.sqrt(max(square, 0.0))
+    if not _makes_triangle(diagonal, length_bc, length_db):
+        return False
+    if not _makes_triangle(diagonal, length_ca, length_ad):
+        return False
+    outer = twins[db], twins[bc], twins[ca], twins[ad]
+    corners = tails[db], tails[bc], tails[ca], tails[ad]  # d, b, c, a
+    lengths = length_db, length_bc, length_ca, length_ad
+    for k, slot in enumerate((bc, ca, ad, db)):
+        twin = outer[k]
+        if twin == db:
+            twin = bc
+        elif twin == bc:
+            twin = ca
+        elif twin == ca:
+            twin = ad
+        elif twin == ad:
+            twin = db
+        tails[slot], sides[slot], twins[slot] = corners[k], lengths[k], twin
+    for slot in (bc, ca, ad, db):
+        if twins[slot] >= 0:
+            twins[twins[slot]] = slot
+    tails[half], tails[other] = corners[2], corners[0]
+    sides[half] = sides[other] = diagonal
+    return True
 
 
-def _other_diagonal(
-    ab: FloatArray, ca: FloatArray, bc: FloatArray, ad: FloatArray, db: FloatArray
-) -> FloatArray:
-    """Lay two triangles with the common side a b in the plane; return the distance from c to d."""
-    cosine, sine = _cosine_law(bc, ab, ca)  # at a, in (a, b, c)
-    cosine_2, sine_2 = _cosine_law(db, ab, ad)  # at a, in (b, a, d)
-    across = cosine * cosine_2 - sine * sine_2  # cosine of the sum
-    return np.asarray(np.sqrt(np.maximum(ca**2 + ad**2 - 2 * ca * ad * across, 0.0)))
-
-
-def _makes_triangles(a: FloatArray, b: FloatArray, c: FloatArray) -> BoolArray:
-    """Tell where three lengths make a triangle that is not degenerate."""
-    longest = np.maximum(np.maximum(a, b), c)
-    return np.asarray(a + b + c > 2 * longest * (1 + 1e-12))
+@compiled
+def _makes_triangle(a: float, b: float, c: float) -> bool:
+    """Tell whether three lengths make a triangle that is not degenerate."""
+    return a + b + c > 2.0 * max(a, b, c) * (1.0 + 1e-12)

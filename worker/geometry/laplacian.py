@@ -9,6 +9,7 @@ from scipy.spatial import cKDTree
 
 from worker.arrays import FloatArray, IntArray
 from worker.geometry.areas import edge_lengths, triangle_areas, vertex_areas
+from worker.geometry.assembly import laplacian_of
 from worker.geometry.delaunay import intrinsic_delaunay
 
 
@@ -57,16 +58,14 @@ def cotangent_laplacian(points: FloatArray, faces: IntArray) -> tuple[sparse.csc
     n = len(points)
     faces, lengths = intrinsic_delaunay(faces, edge_lengths(points, faces))
     areas = triangle_areas(lengths)
-    squares = lengths**2  # (m, 3)
-    following, last = np.roll(squares, -1, axis=1), np.roll(squares, 1, axis=1)
+    squares = lengths * lengths  # (m, 3)
     floor = np.finfo(float).eps * squares.max(initial=0.0)
-    cotangents = (following + last - squares) / (4.0 * np.maximum(areas, floor))[
-        :, None
-    ]  # opposite to each edge
-    weights = cotangents.ravel() / 2.0
-    tails, heads = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
-    off = sparse.coo_array((weights, (tails, heads)), shape=(n, n)).tocsc()
-    return _laplacian(off + off.T), vertex_areas(faces, areas, n)
+    quadruple = 4.0 * np.maximum(areas, floor)  # (m,)
+    opposite = squares.sum(axis=1)[:, None] - 2.0 * squares  # the squares of both other sides, less its own
+    cotangents = opposite / quadruple[:, None]  # opposite to each edge
+    heads = faces[:, [1, 2, 0]].ravel()
+    stiffness = laplacian_of(faces.ravel(), heads, cotangents.ravel() / 2.0, n)
+    return stiffness, vertex_areas(faces, areas, n)
 
 
 def mesh_laplacian(
@@ -96,18 +95,12 @@ def mesh_laplacian(
     mass : (n,) array
         S, as given.
     """
-    n = len(points)
-    radius = np.sqrt(-4.0 * kernel_width * np.log(tail))
+    radius = float(np.sqrt(-4.0 * kernel_width * np.log(tail)))
     pairs = cKDTree(points).query_pairs(radius, output_type="ndarray")  # (p, 2)
-    pairs = pairs[np.lexsort(pairs.T)]
-    first, second = pairs.T
-    squares = np.sum((points[first] - points[second]) ** 2, axis=1)
-    weights = areas[first] * areas[second] * np.exp(-squares / (4.0 * kernel_width))
+    first, second = np.ascontiguousarray(pairs.T)
+    squares = np.zeros(len(first))
+    for column in points.T:
+        squares += np.square(column[first] - column[second])
+    weights = areas[first] * areas[second] * np.exp(squares / (-4.0 * kernel_width))
     weights /= 4.0 * np.pi * kernel_width**2
-    off = sparse.coo_array((weights, (first, second)), shape=(n, n)).tocsc()
-    return _laplacian(off + off.T), areas
-
-
-def _laplacian(weights: sparse.csc_array) -> sparse.csc_array:
-    """Return diag(Σ_j w_ij) − w; weights of a vertex to itself cancel."""
-    return sparse.csc_array(sparse.diags_array(np.asarray(weights.sum(axis=1)).ravel()) - weights)
+    return laplacian_of(first, second, weights, len(points)), areas

@@ -2,16 +2,18 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
 from scipy import linalg, sparse
 from scipy.sparse import csgraph
-from scipy.sparse.linalg import SuperLU, splu
 
 from worker.arrays import FloatArray, IntArray
 from worker.errors import Code, MeshError
-from worker.geometry.lanczos import dominant_vectors
+from worker.geometry.factors import Factors, factorise, solve
+from worker.geometry.fronts import Fronts, find_fronts
+from worker.geometry.lanczos import dominant_pairs
 
 DENSE = 400  # connected pieces of no more vertices are solved densely
 CROWDED = 0.2  # of all pairs wanted: from here a piece is solved densely as well
@@ -28,8 +30,23 @@ class Eigenpairs:
     eigenfunctions: FloatArray  # (n, k), φᵀ A φ = I
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class System:
+    """A symmetric matrix and what its factorisations share."""
+
+    matrix: sparse.csc_array  # (n, n), A^-½ W A^-½: the eigenvalues of W φ = λ A φ
+    diagonal: FloatArray  # (n,)
+    starts: IntArray  # (n + 1,), where each column begins
+    rows: IntArray  # of the entries, by columns
+    fronts: Fronts
+
+    def factorise(self, shift: float) -> Factors | None:
+        """Factor the matrix less a multiple of the identity; None where that is singular."""
+        return factorise(self.fronts, self.starts, self.rows, self.matrix.data, self.diagonal - shift)
+
+
 def solve_eigenpairs(
-    stiffness: sparse.csc_array, mass: FloatArray, cutoff: float, most: int = 200
+    points: FloatArray, stiffness: sparse.csc_array, mass: FloatArray, cutoff: float, most: int = 200
 ) -> Eigenpairs:
     """Find every eigenpair below a cutoff.
 
@@ -39,6 +56,8 @@ def solve_eigenpairs(
 
     Parameters
     ----------
+    points : (n, d ≥ 3) array
+        Where the vertices lie; it decides in which order they are eliminated, and nothing else.
     stiffness : (n, n) sparse array
         W, symmetric and positive semi-definite.
     mass : (n,) array
@@ -64,13 +83,16 @@ def solve_eigenpairs(
             continue
         if len(massive) < len(rows):
             rows, piece = rows[massive], sparse.csc_array(piece[massive][:, massive])
-        solved.append((rows, *_solve_piece(piece, mass[rows], cutoff, most)))
+        solved.append((rows, *_solve_piece(points[rows], piece, mass[rows], cutoff, most)))
     return _joined(solved, len(mass))
 
 
 def _pieces(stiffness: sparse.csc_array) -> Iterator[tuple[IntArray, sparse.csc_array]]:
     """Yield the rows and the matrix of each connected piece."""
     n_pieces, pieces = csgraph.connected_components(stiffness, directed=False)
+    if n_pieces == 1:
+        yield np.arange(len(pieces)), stiffness
+        return
     order = np.argsort(pieces, kind="stable")
     ends = np.concatenate([[0], np.cumsum(np.bincount(pieces, minlength=n_pieces))])
     blocks = sparse.csc_array(stiffness[order][:, order])  # block diagonal
@@ -85,17 +107,34 @@ def _joined(solved: list[tuple[IntArray, FloatArray, FloatArray]], n_vertices: i
     """Put the pairs of the pieces (rows, eigenvalues, eigenfunctions) together, ascending."""
     eigenvalues = np.concatenate([values for _, values, _ in solved])
     places = np.argsort(np.argsort(eigenvalues, kind="stable"), kind="stable")
-    eigenfunctions = np.zeros((n_vertices, len(eigenvalues)))
+    eigenfunctions = np.zeros((len(eigenvalues), n_vertices))
     start = 0
     for rows, values, functions in solved:
-        columns = places[start : start + len(values)]
-        eigenfunctions[np.ix_(rows, columns)] = functions
+        for place, function in zip(places[start:], functions, strict=False):
+            eigenfunctions[place, rows] = function
         start += len(values)
-    return Eigenpairs(eigenvalues=np.sort(eigenvalues, kind="stable"), eigenfunctions=eigenfunctions)
+    return Eigenpairs(
+        eigenvalues=np.sort(eigenvalues, kind="stable"), eigenfunctions=np.ascontiguousarray(eigenfunctions.T)
+    )
 
 
-def count_below(stiffness: sparse.csc_array, mass: FloatArray, value: float) -> int:
-    """Count the eigenvalues below a value: the negative pivots of a factorisation of W − value A.
+def system_of(points: FloatArray, stiffness: sparse.csc_array, mass: FloatArray) -> System:
+    """Prepare the factorisations of W − σ A; A has no 0 on its diagonal, else as for `solve_eigenpairs`."""
+    scale = 1.0 / np.sqrt(mass)
+    starts, rows = stiffness.indptr.astype(np.int64), stiffness.indices.astype(np.int64)
+    weights = stiffness.data * (scale[rows] * np.repeat(scale, np.diff(starts)))
+    matrix = sparse.csc_array((weights, rows, starts), shape=stiffness.shape)
+    return System(
+        matrix=matrix,
+        diagonal=matrix.diagonal(),
+        starts=starts,
+        rows=rows,
+        fronts=find_fronts(points, starts, rows),
+    )
+
+
+def count_below(system: System, value: float) -> int:
+    """Count the eigenvalues below a value: the negative pivots of a factorisation.
 
     Raises
     ------
@@ -103,46 +142,39 @@ def count_below(stiffness: sparse.csc_array, mass: FloatArray, value: float) -> 
         ``unsolved`` where no factorisation without row exchanges was found close to the value.
     """
     for nudge in range(NUDGES):
-        factors = _factor(stiffness, mass, value * (1.0 - 1e-10 * nudge))
-        if factors is not None and np.array_equal(factors.perm_r, factors.perm_c):
-            return int(np.count_nonzero(factors.U.diagonal() < 0))
+        factors = system.factorise(value * (1.0 - 1e-10 * nudge))
+        if factors is not None:
+            return factors.negative
     raise MeshError(Code.UNSOLVED, "The number of the shape's vibration modes could not be proven.")
 
 
 def _solve_piece(
-    stiffness: sparse.csc_array, mass: FloatArray, cutoff: float, most: int
+    points: FloatArray, stiffness: sparse.csc_array, mass: FloatArray, cutoff: float, most: int
 ) -> tuple[FloatArray, FloatArray]:
-    """Solve one connected piece; (k,) and (n, k)."""
-    scale = 1.0 / np.sqrt(mass)
-    wanted = 0
+    """Solve one connected piece; (k,) and (k, n)."""
+    scale, wanted = 1.0 / np.sqrt(mass), 0
     if len(mass) > DENSE:
-        cutoff, wanted = _count_few(stiffness, mass, cutoff, most)
+        system = system_of(points, stiffness, mass)
+        cutoff, wanted = _count_few(system, cutoff, most)
     if len(mass) <= DENSE or wanted > CROWDED * len(mass):
         symmetric = scale[:, None] * stiffness.toarray() * scale
-        values, vectors = linalg.eigh(symmetric, subset_by_value=(-np.inf, cutoff))
+        values, columns = linalg.eigh(symmetric, subset_by_value=(-np.inf, cutoff))
+        vectors = np.ascontiguousarray(columns.T)
     else:
-        symmetric = _scaled(stiffness, scale)
-        values, vectors = _solve_sparse(symmetric, cutoff, wanted)
-        _set_constant(symmetric, np.sqrt(mass), values, vectors)
-    values, vectors = values[:most], scale[:, None] * vectors[:, :most]
-    return np.maximum(values, 0.0), _fix_signs(vectors, mass)
+        values, vectors = _solve_sparse(system, cutoff, wanted)
+        _set_constant(system.matrix, np.sqrt(mass), values, vectors)
+    vectors = vectors[:most] * scale
+    return np.maximum(values[:most], 0.0), _fix_signs(vectors, mass)
 
 
-def _scaled(stiffness: sparse.csc_array, scale: FloatArray) -> sparse.csc_array:
-    """Multiply rows and columns of W by the entries of A^-½: the same eigenvalues, without A."""
-    factors = scale[stiffness.indices] * np.repeat(scale, np.diff(stiffness.indptr))
-    parts = (stiffness.data * factors, stiffness.indices, stiffness.indptr)
-    return sparse.csc_array(parts, shape=stiffness.shape)
-
-
-def _count_few(stiffness: sparse.csc_array, mass: FloatArray, cutoff: float, most: int) -> tuple[float, int]:
+def _count_few(system: System, cutoff: float, most: int) -> tuple[float, int]:
     """Lower a cutoff until not many more than the cap lie below it; return it, and how many do."""
-    count, lower = count_below(stiffness, mass, cutoff), 0.0
+    count, lower = count_below(system, cutoff), 0.0
     for _ in range(LOWERINGS):
         if count <= SPARE * most:
             break
         trial = max(cutoff * SPARE * most / count, (lower + cutoff) / 2)  # Weyl (1911): they grow evenly
-        fewer = count_below(stiffness, mass, trial)
+        fewer = count_below(system, trial)
         if fewer < most:
             lower = trial
         else:
@@ -150,23 +182,24 @@ def _count_few(stiffness: sparse.csc_array, mass: FloatArray, cutoff: float, mos
     return cutoff, count
 
 
-def _solve_sparse(symmetric: sparse.csc_array, cutoff: float, n_pairs: int) -> tuple[FloatArray, FloatArray]:
+def _solve_sparse(system: System, cutoff: float, n_pairs: int) -> tuple[FloatArray, FloatArray]:
     """Find the pairs below a cutoff, known to be so many, by inverse iteration about its half.
 
-    All of them are nearer to it than any other. Rayleigh-Ritz values bound the true ones from above
-    (Parlett 1980, section 10.1): so many below the cutoff are all that there are.
+    All of them are nearer to it than any other. Each value found with a small residual, its vector
+    orthogonal to the others', has an eigenvalue of its own beside it (Parlett 1980, section 11.5): so many
+    are all that there are.
     """
-    n = symmetric.shape[0]
+    n = len(system.diagonal)
     for nudge in range(NUDGES):
         shift = cutoff * (0.5 - 0.01 * nudge)
-        factors = _factor(symmetric, np.ones(n), shift)
+        factors = system.factorise(shift)
         if factors is None:
             continue
-        span = dominant_vectors(factors.solve, n, n_pairs, 1.0 / (cutoff - shift))  # (n_pairs, n)
-        if span is not None:
-            values, turns = linalg.eigh(span @ (symmetric @ span.T))
-            if values.max(initial=0.0) <= cutoff * (1.0 + 1e-9):
-                return values, span.T @ turns
+        pairs = dominant_pairs(partial(solve, factors), n, n_pairs, 1.0 / (cutoff - shift))
+        if pairs is not None:
+            values = shift + 1.0 / pairs[0]
+            order = np.argsort(values, kind="stable")
+            return values[order], pairs[1][order]
     raise MeshError(Code.UNSOLVED, f"{n_pairs} vibration modes were expected, and not all found.")
 
 
@@ -177,22 +210,11 @@ def _set_constant(
     constant = constant / np.linalg.norm(constant)
     if np.abs(symmetric @ constant).max() < 1e-12 * symmetric.diagonal().max():  # no vertex was left out
         values[:1] = 0.0
-        vectors -= np.outer(constant, constant @ vectors)
-        vectors[:, :1] = constant[:, None]
-
-
-def _factor(stiffness: sparse.csc_array, mass: FloatArray, shift: float) -> SuperLU | None:
-    """Factor W − shift A keeping its symmetry; None where a pivot is 0."""
-    matrix = sparse.csc_array(stiffness - shift * sparse.diags_array(mass))
-    try:
-        return splu(
-            matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
-        )
-    except RuntimeError:
-        return None
+        vectors -= np.outer(vectors @ constant, constant)
+        vectors[:1] = constant
 
 
 def _fix_signs(vectors: FloatArray, mass: FloatArray) -> FloatArray:
     """Choose the sign of each eigenfunction: its third moment is not negative."""
-    moments = mass @ (vectors * vectors * vectors)
-    return vectors * np.where(moments < 0, -1.0, 1.0)
+    moments = (vectors * vectors * vectors) @ mass
+    return vectors * np.where(moments < 0, -1.0, 1.0)[:, None]
