@@ -6,6 +6,7 @@ from worker.canonical import canonical_surface
 from worker.descriptors.histograms import lab_histogram
 from worker.geometry.areas import edge_lengths, triangle_areas
 from worker.geometry.colour import srgb_to_lab
+from worker.geometry.refinement import split_long_edges
 from worker.geometry.repair import repair
 from worker.parameters import Parameters
 from worker.reading.mesh import Colour, Mesh
@@ -59,6 +60,17 @@ def test_colours_stay_where_they_were() -> None:
     surface = canonical_surface(mesh, repair(mesh), PARAMETERS)
     places = surface.vertices / np.linalg.norm(surface.vertices, axis=1, keepdims=True)
     np.testing.assert_allclose(surface.srgb, 0.5 + places / 2, atol=0.02)
+
+
+def test_colours_stay_where_they_were_on_a_mesh_that_is_denser_on_one_side() -> None:
+    vertices, faces = sphere(4)
+    above = (vertices[faces][:, :, 2] > 0.2).all(axis=1)
+    fine, fine_faces = split_long_edges(vertices, faces[above], 0.02)
+    whole = np.vstack([faces[~above], fine_faces])
+    mesh = coloured(fine, whole, 0.5 + fine / 2)
+    surface = canonical_surface(mesh, repair(mesh), PARAMETERS)
+    places = surface.vertices / np.linalg.norm(surface.vertices, axis=1, keepdims=True)
+    np.testing.assert_allclose(surface.srgb, 0.5 + places / 2, atol=0.03)
 
 
 def test_corners_of_turned_faces_keep_their_colours() -> None:

@@ -2,7 +2,7 @@ import numpy as np
 from scipy.spatial.distance import cdist
 
 from tests.shapes import sheet
-from worker.geometry.cells import cell_means, cells_of, nearest_of
+from worker.geometry.cells import cell_means, cells_of, nearest_of, nearest_one_by_one
 
 
 def test_the_two_sides_of_a_thin_wall_keep_their_colours() -> None:
@@ -30,4 +30,5 @@ def test_the_nearest_is_the_nearest_in_all_coordinates_near_and_far() -> None:
     points[0] = 1e4  # far outside
     for reach in (0.5, 3.0, 30.0):
         found = nearest_of(points, centres, reach)
+        np.testing.assert_array_equal(found, nearest_one_by_one(points, centres, reach))
         np.testing.assert_array_equal(found, cdist(points, centres).argmin(axis=1))

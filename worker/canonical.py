@@ -9,7 +9,7 @@ from worker.geometry.areas import face_vectors, norms, unit, vertex_normals
 from worker.geometry.cells import Cells, cell_means, cells_of
 from worker.geometry.colour import look_up_colours, srgb_to_lab
 from worker.geometry.repair import Repaired
-from worker.geometry.resampling import edge_of, normalise_area, resample, sample_surface
+from worker.geometry.resampling import edge_of, normalise_area, retriangulate, sample_surface
 from worker.geometry.texels import interpolate
 from worker.parameters import Parameters
 from worker.reading.mesh import Mesh
@@ -59,14 +59,15 @@ def canonical_surface(mesh: Mesh, repaired: Repaired, parameters: Parameters) ->
 def stretch_canvas(repaired: Repaired, parameters: Parameters) -> Canvas:
     """Resample a repaired mesh, and choose where its colours are looked up."""
     area, n_vertices = parameters.surface_area, parameters.vertices
-    vertices, faces = resample(repaired.vertices, repaired.faces, area, n_vertices)
+    edge = edge_of(area, n_vertices)
     source = normalise_area(repaired.vertices, repaired.faces, area)
+    vertices, faces = retriangulate(source, repaired.faces, n_vertices, edge)
     indices, barycentrics = sample_surface(source, repaired.faces, parameters.colour_samples)
     sampled = face_vectors(source, repaired.faces[indices])  # (k, 3)
     footprints = area / parameters.colour_samples / norms(sampled)
     sample_faces, sample_places = _in_source(repaired, indices, barycentrics)
     return Canvas(
-        vertices=vertices,
+        vertices=normalise_area(vertices, faces, area),  # not before samples have found their cells
         faces=faces,
         sample_faces=sample_faces,
         sample_places=sample_places,
@@ -76,7 +77,7 @@ def stretch_canvas(repaired: Repaired, parameters: Parameters) -> Canvas:
             unit(sampled),
             vertices,
             vertex_normals(vertices, faces),
-            edge_of(area, n_vertices),
+            edge,
         ),
     )
 

@@ -8,6 +8,8 @@ from scipy.spatial import cKDTree
 from worker.arrays import FloatArray, IntArray
 from worker.compiled import compiled
 
+RINGS = 3  # of cubes around a point's own that are looked through
+FEW = 50  # points for which a grid does not pay
 CUBES = 1_000_000  # of the grid, about; fewer, larger ones for what is spread out
 
 
@@ -47,7 +49,8 @@ def cells_of(
     nearest = nearest_of(samples, vertices, turn)
     counts = np.bincount(nearest, minlength=len(centres))
     empty = np.flatnonzero(counts == 0)
-    lent = np.asarray(cKDTree(samples).query(vertices[empty])[1]) if len(empty) else empty
+    search = nearest_of if len(empty) > FEW else nearest_one_by_one
+    lent = search(vertices[empty], samples, turn)
     return Cells(nearest=nearest, counts=counts, empty=empty, lent=lent)
 
 
@@ -79,12 +82,14 @@ def nearest_of(points: FloatArray, centres: FloatArray, reach: float) -> IntArra
     """
     lower, upper = centres[:, :3].min(axis=0), centres[:, :3].max(axis=0)
     side = max(reach, float(np.cbrt(np.prod(upper - lower + reach) / CUBES)))
-    shape = np.floor((upper - lower) / side).astype(np.int64) + 3  # an empty layer around
-    cubes = np.floor((centres[:, :3] - lower) / side).astype(np.int64) + 1
+    shape = np.floor((upper - lower) / side).astype(np.int64) + 1 + 2 * RINGS  # with empty layers around
+    cubes = np.floor((centres[:, :3] - lower) / side).astype(np.int64) + RINGS
     keys = (cubes[:, 0] * shape[1] + cubes[:, 1]) * shape[2] + cubes[:, 2]
     order = np.argsort(keys, kind="stable")
     starts = np.concatenate([[0], np.cumsum(np.bincount(keys, minlength=int(shape.prod())))])
-    nearest = _search(points, centres[order], starts, shape, lower, side)
+    nearest = np.full(len(points), -1)
+    for ring in range(1, RINGS + 1):
+        _search(points, nearest, centres[order], starts, shape, lower, side, ring)
     far = np.flatnonzero(nearest < 0)
     found: IntArray = order[nearest]
     if len(far):
@@ -93,26 +98,49 @@ def nearest_of(points: FloatArray, centres: FloatArray, reach: float) -> IntArra
 
 
 @compiled
-def _search(
-    points: FloatArray, centres: FloatArray, starts: IntArray, shape: IntArray, lower: FloatArray, side: float
-) -> IntArray:
-    """Look through the 27 cubes around each point; −1 where the nearest may lie outside of them."""
-    nearest = np.full(len(points), -1)
+def nearest_one_by_one(points: FloatArray, centres: FloatArray, _: float) -> IntArray:
+    """Find the nearest centre of each of a few points, as `nearest_of` does, by looking at all of them."""
+    nearest = np.empty(len(points), dtype=np.int64)
     for point in range(len(points)):
-        x = int(np.floor((points[point, 0] - lower[0]) / side)) + 1
-        y = int(np.floor((points[point, 1] - lower[1]) / side)) + 1
-        z = int(np.floor((points[point, 2] - lower[2]) / side)) + 1
-        if not (0 < x < shape[0] - 1 and 0 < y < shape[1] - 1 and 0 < z < shape[2] - 1):
+        least = np.inf
+        for centre in range(len(centres)):
+            square = 0.0
+            for axis in range(points.shape[1]):
+                step = points[point, axis] - centres[centre, axis]
+                square += step * step
+            if square < least:
+                least, nearest[point] = square, centre
+    return nearest
+
+
+@compiled
+def _search(
+    points: FloatArray,
+    nearest: IntArray,
+    centres: FloatArray,
+    starts: IntArray,
+    shape: IntArray,
+    lower: FloatArray,
+    side: float,
+    ring: int,
+) -> None:
+    """Look through the cubes around each point that has no centre yet, as far as ``ring`` cubes away."""
+    for point in range(len(points)):
+        x = int(np.floor((points[point, 0] - lower[0]) / side)) + RINGS
+        y = int(np.floor((points[point, 1] - lower[1]) / side)) + RINGS
+        z = int(np.floor((points[point, 2] - lower[2]) / side)) + RINGS
+        within = x >= ring and y >= ring and z >= ring
+        within = within and x + ring < shape[0] and y + ring < shape[1] and z + ring < shape[2]
+        if nearest[point] >= 0 or not within:
             continue
-        least = side * side
-        for i in range(x - 1, x + 2):
-            for j in range(y - 1, y + 2):
+        least = (ring * side) ** 2  # all centres that are nearer lie in these cubes
+        for i in range(x - ring, x + ring + 1):
+            for j in range(y - ring, y + ring + 1):
                 key = (i * shape[1] + j) * shape[2] + z
-                for centre in range(starts[key - 1], starts[key + 2]):
+                for centre in range(starts[key - ring], starts[key + ring + 1]):
                     square = 0.0
                     for axis in range(points.shape[1]):
                         step = points[point, axis] - centres[centre, axis]
                         square += step * step
                     if square < least:
                         least, nearest[point] = square, centre
-    return nearest

@@ -47,10 +47,18 @@ def resample(
         Centred.
     faces : (m', 3) array
     """
-    vertices = normalise_area(vertices, faces, area)
-    vertices, faces = _refine(vertices, faces, n_vertices, edge_of(area, n_vertices))
-    vertices, faces = collapse_short_edges(vertices, faces, n_vertices)
+    vertices, faces = retriangulate(
+        normalise_area(vertices, faces, area), faces, n_vertices, edge_of(area, n_vertices)
+    )
     return normalise_area(vertices, faces, area), faces
+
+
+def retriangulate(
+    vertices: FloatArray, faces: IntArray, n_vertices: int, edge: float
+) -> tuple[FloatArray, IntArray]:
+    """Triangulate a surface anew where it is, with edges of about a length; otherwise as `resample`."""
+    vertices, faces = _refine(vertices, faces, n_vertices, edge)
+    return collapse_short_edges(vertices, faces, n_vertices)
 
 
 def sample_surface(vertices: FloatArray, faces: IntArray, n_samples: int) -> tuple[IntArray, FloatArray]:
