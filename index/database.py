@@ -9,6 +9,7 @@ from typing import Any
 from alembic import command
 from alembic.config import Config
 from sqlalchemy import Connection, Engine, create_engine, event
+from sqlalchemy.engine.interfaces import DBAPICursor
 from sqlalchemy.exc import OperationalError
 from sqlalchemy.orm import Session
 
@@ -51,10 +52,17 @@ def reading(engine: Engine) -> Iterator[Session]:
 
 
 @contextmanager
-def looking(engine: Engine) -> Iterator[Connection]:
-    """Do as `reading` does, without an ORM: for what every search asks."""
-    with _named(), engine.connect() as connection:
-        yield connection
+def looking(engine: Engine) -> Iterator[DBAPICursor]:
+    """Do as `reading` does, with the driver's own cursor: for what every search asks."""
+    with _named(), _wrapped(engine):
+        connection = engine.raw_connection()
+        try:
+            cursor = connection.cursor()
+            if engine.dialect.name == "sqlite":
+                cursor.execute("BEGIN")  # other drivers begin by themselves
+            yield cursor
+        finally:
+            connection.close()  # goes back to the pool, which rolls back
 
 
 @contextmanager
@@ -89,6 +97,15 @@ def _begin_sqlite(connection: Connection) -> None:
     # SQLite would refuse one of them at once, whatever the timeout. So writers say so at the start.
     writes = connection.get_execution_options().get(_WRITES, False)
     connection.exec_driver_sql("BEGIN IMMEDIATE" if writes else "BEGIN")
+
+
+@contextmanager
+def _wrapped(engine: Engine) -> Iterator[None]:
+    """Give a driver's failure SQLAlchemy's name, as its own connections do."""
+    try:
+        yield
+    except engine.dialect.loaded_dbapi.OperationalError as error:
+        raise OperationalError(None, None, error) from error
 
 
 @contextmanager

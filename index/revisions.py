@@ -1,11 +1,13 @@
 """Revisions: every change has a number, and whoever watches asks for what is newer."""
 
 from datetime import UTC, datetime
+from functools import cached_property
 
 from sqlalchemy import Engine, select
 from sqlalchemy.orm import Session
 
-from index.database import reading
+from index.database import looking, reading
+from index.prepared import Prepared
 from index.shapes import CatalogueState, Changes
 from index.tables import ShapeRow, StateRow, TombstoneRow
 
@@ -44,13 +46,14 @@ class Revisions:
 
     def state(self) -> CatalogueState:
         """Return what an index must compare; one cheap SELECT."""
-        with reading(self._engine) as session:
-            row = session.execute(
-                select(StateRow.library, StateRow.revision, StateRow.epoch, StateRow.vocabulary_id)
-            ).one()
-        return CatalogueState(
-            library=row.library, revision=row.revision, epoch=row.epoch, vocabulary_id=row.vocabulary_id
-        )
+        with looking(self._engine) as cursor:
+            ((library, revision, epoch, vocabulary_id),) = self._state.rows(cursor, {})
+        return CatalogueState(library=library, revision=revision, epoch=epoch, vocabulary_id=vocabulary_id)
+
+    @cached_property
+    def _state(self) -> Prepared:
+        row = StateRow.__table__.c
+        return Prepared(select(row.library, row.revision, row.epoch, row.vocabulary_id), self._engine.dialect)
 
     def revision(self) -> int:
         """Return the number of the last change."""

@@ -22,6 +22,7 @@ from service.jobs.describing import Describe, describe_files
 from service.jobs.pool import ProcessPerJob
 from service.jobs.workers import Worker, process_name
 from service.library import Library
+from service.refining import rehearse
 from service.settings import Settings
 
 OpenLibrary = Callable[[Settings], Library]
@@ -84,7 +85,7 @@ def child_limits(settings: Settings) -> ChildLimits:
 
 def _add_routes(app: FastAPI) -> None:
     guarded = APIRouter(prefix="/v1", dependencies=[Depends(guard)])
-    for part in (shapes, contents, search, methods, events):
+    for part in (search, shapes, contents, methods, events):  # the most asked for first
         guarded.include_router(part.router)
     app.include_router(guarded)
     app.include_router(health.router)
@@ -103,6 +104,7 @@ def _services(
         searches = ProcessPerJob(slots=settings.search_slots, limits=child_limits(settings))
         searches.warm()
         stack.callback(searches.shutdown, cancel_futures=True)
+        stack.enter_context(_rehearsal())
         notify = stack.enter_context(_embedded_worker(library, metrics, describe))
         yield Services(
             library=library,
@@ -113,6 +115,17 @@ def _services(
             notify=notify,
             describe=describe,
         )
+
+
+@contextlib.contextmanager
+def _rehearsal() -> Iterator[None]:
+    """Make compiled functions ready beside the start, which does not wait for them; the end does."""
+    thread = threading.Thread(target=rehearse, name="rehearsal")
+    thread.start()
+    try:
+        yield
+    finally:
+        thread.join()
 
 
 @contextlib.contextmanager

@@ -7,7 +7,7 @@ from typing import TypeVar
 import numpy as np
 
 from worker.arrays import SingleArray
-from worker.descriptors.landmarks import LADDER
+from worker.descriptors.landmarks import LADDER, WIDTH
 from worker.descriptors.registration import query_of, register_all
 
 LANDMARKS = "landmarks"  # block of every shape
@@ -52,6 +52,12 @@ def refine(found: Ranked, query: QueryLandmarks, stored: Mapping[str, SingleArra
         key=lambda result: (result[1], result[0]),
     )
     return refined + [(shape_id, distance + worst) for shape_id, distance in found[first:]]
+
+
+def rehearse() -> None:
+    """Load the compiled functions of this stage; on a machine's first start they are compiled."""
+    packed, ladder = np.ones(2 * WIDTH, np.float32), np.ones(2 * len(LADDER), np.float32)
+    additions_to(QueryLandmarks(packed=packed, ladder=ladder), {"": 2.0 * packed})
 
 
 def additions_to(query: QueryLandmarks, stored: Mapping[Key, SingleArray]) -> dict[Key, float]:

@@ -15,7 +15,7 @@ from service.jobs.describing import Describe, describe_files
 from service.library import Library
 from service.quantisation import quantise, require_same
 from service.refining import LANDMARKS, QUERY_LADDER, QueryLandmarks, refine
-from service.storage import load_signatures, upload_key
+from service.storage import load_signature, upload_key
 from service.vocabularies import active_vocabulary, known_vocabulary
 from worker.arrays import SingleArray
 from worker.describe import Description, MeshFacts
@@ -226,7 +226,7 @@ def _stored_landmarks(library: Library, shape_id: str, blocks: Mapping[str, Sing
     if packed is None:
         raise FingerprintMismatch("This shape was described by an earlier version; index its files anew.")
     try:
-        ladder = load_signatures(library.files, shape_id, [QUERY_LADDER])[QUERY_LADDER]
+        ladder = load_signature(library.files, shape_id, QUERY_LADDER)
     except FileMissing:
         library.catalogue.get(shape_id)
         raise

@@ -1,10 +1,12 @@
 """Under which keys a library keeps its files, and the signatures among them."""
 
 import io
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
+from zipfile import ZipFile
 
 import numpy as np
 
+from index.errors import FileMissing
 from index.files import FileStore
 from worker.arrays import SingleArray
 
@@ -31,10 +33,19 @@ def save_signatures(files: FileStore, shape_id: str, signatures: Mapping[str, Si
     files.put(derived_key(shape_id, SIGNATURES), buffer.getvalue())
 
 
-def load_signatures(
-    files: FileStore, shape_id: str, names: Collection[str] | None = None
-) -> dict[str, SingleArray]:
-    """Return the signatures of a ready shape, or only some of them; FileMissing where there are none."""
+def load_signatures(files: FileStore, shape_id: str) -> dict[str, SingleArray]:
+    """Return the signatures of a ready shape; FileMissing where there are none."""
     data = files.get(derived_key(shape_id, SIGNATURES))
     with np.load(io.BytesIO(data), allow_pickle=False) as archive:
-        return {name: archive[name] for name in (archive.files if names is None else names)}
+        return {name: archive[name] for name in archive.files}
+
+
+def load_signature(files: FileStore, shape_id: str, name: str) -> SingleArray:
+    """Return one signature of a ready shape, without reading the others; FileMissing where there are none."""
+    key = derived_key(shape_id, SIGNATURES)
+    try:
+        with ZipFile(files.path(key)) as archive, archive.open(f"{name}.npy") as member:
+            found: SingleArray = np.lib.format.read_array(member, allow_pickle=False)
+    except FileNotFoundError:
+        raise FileMissing(f"no file is kept under {key!r}") from None
+    return found

@@ -1,13 +1,15 @@
 from collections.abc import Mapping
+from typing import Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from service import refining
-from service.refining import QueryLandmarks, Ranked, additions_to, refine
+from service.refining import QueryLandmarks, Ranked, additions_to, refine, rehearse
 from tests.landmarked import Marked, marked
 from worker.arrays import SingleArray
+from worker.descriptors import registration
 from worker.descriptors.registration import register
 
 RANKED = st.lists(st.floats(0.0, 10.0), max_size=12).map(
@@ -42,6 +44,14 @@ def test_what_is_added_is_the_distance_of_the_registration() -> None:
     assert additions_to(query_of(query), stored) == {
         seed: register(query.query(), marked(seed, 30).stored()).distance() for seed in stored
     }
+
+
+def test_after_a_rehearsal_nothing_is_compiled_for_a_query() -> None:
+    rehearse()
+    kernel: Any = registration._all_registered
+    ready = list(kernel.signatures)
+    additions_to(QUERY, {"a": marked(1, 30).packed().ravel()})
+    assert list(kernel.signatures) == ready
 
 
 def test_a_shape_that_lies_on_the_query_overtakes_nearer_ones() -> None:

@@ -51,9 +51,9 @@ def test_changes_come_in_their_order_with_removals_apart(opened: Opened) -> None
 
 def test_the_state_costs_one_statement(opened: Opened) -> None:
     statements: list[str] = []
-    event.listen(opened.engine, "before_cursor_execute", lambda *told: statements.append(told[2]))
+    event.listen(opened.engine, "checkout", lambda taken, *_: taken.set_trace_callback(statements.append))
     opened.catalogue.state()
-    assert [statement.split()[0] for statement in statements] == ["BEGIN", "SELECT"]
+    assert [statement.split()[0] for statement in statements] == ["BEGIN", "SELECT", "ROLLBACK"]
 
 
 def test_two_libraries_have_different_names(opened: Opened, tmp_path: Path) -> None:

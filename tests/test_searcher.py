@@ -96,9 +96,9 @@ def test_a_searcher_with_nothing_new_costs_one_select(opened: Opened, tmp_path: 
     searcher = Searcher(opened.catalogue, tmp_path / "index")
     searcher.search("fused", make_blocks(1), 3)
     statements: list[str] = []
-    event.listen(opened.engine, "before_cursor_execute", lambda *told: statements.append(told[2]))
+    event.listen(opened.engine, "checkout", lambda taken, *_: taken.set_trace_callback(statements.append))
     searcher.search("fused", make_blocks(2), 3)
-    assert [statement.split()[0] for statement in statements] == ["BEGIN", "SELECT"]
+    assert [statement.split()[0] for statement in statements] == ["BEGIN", "SELECT", "ROLLBACK"]
 
 
 def saved_index(opened: Opened, folder: Path, n_shapes: int = 40) -> Path:
