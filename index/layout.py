@@ -1,4 +1,4 @@
-"""Layout: where a method's blocks lie in one long vector, and how they are scaled there."""
+"""Layout: where a method's blocks lie in one row, and how their numbers are kept there."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -7,99 +7,73 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from index.arrays import DoubleArray, SingleArray
+from index.arrays import DoubleArray, RowArray
 from index.errors import BadBlock
 from index.methods import Method
+from index.packing import PACKINGS, Packing
 
 
 @dataclass(frozen=True, kw_only=True)
 class Layout:
-    """The blocks of a method side by side.
+    """The blocks of a method side by side: bytes where all of them are packed, else single numbers."""
 
-    Scaled by c_b = (w_b / w_a)^(1/p), where a is the widest block, the L1 distance of two long vectors is
-    s = Σ_b c_b ‖x_b − y_b‖₁, so that for B blocks
-
-        p = 1:  d = w_a s          p = 2:  w_a s²/B ≤ d ≤ w_a s²    (Cauchy and Schwarz)
-
-    The widest block has scale 1 and keeps every bit; the others are rounded by scaling.
-    """
-
-    method: Method  # all weights greater than 0
+    method: Method
     lengths: tuple[int, ...]  # numbers in each of its blocks
 
     @classmethod
-    def of(cls, method: Method, blocks: Mapping[str, SingleArray]) -> "Layout":
+    def of(cls, method: Method, blocks: Mapping[str, npt.NDArray[np.float32]]) -> "Layout":
         """Return the layout that fits a shape's blocks."""
         return cls(method=method, lengths=tuple(blocks[block.name].size for block in method.blocks))
 
     @cached_property
     def width(self) -> int:
-        """Numbers in the long vector."""
+        """Numbers in a row."""
         return sum(self.lengths)
 
     @cached_property
-    def slices(self) -> tuple[slice, ...]:
-        """Where each block lies."""
-        ends = np.cumsum(self.lengths)
-        return tuple(
-            slice(int(end) - length, int(end)) for end, length in zip(ends, self.lengths, strict=True)
-        )
+    def edges(self) -> npt.NDArray[np.int64]:
+        """Where the blocks begin, and the end of the last one, (B + 1,)."""
+        return np.concatenate([[0], np.cumsum(self.lengths)])
 
     @cached_property
-    def widest(self) -> int:
-        """Position of the block with scale 1."""
-        return self.lengths.index(max(self.lengths))
+    def packings(self) -> tuple[Packing, ...] | None:
+        """How each block's bytes are read; None where rows are single numbers."""
+        found = [PACKINGS.get(block.name) for block in self.method.blocks]
+        packed = tuple(packing for packing in found if packing is not None)
+        return packed if len(packed) == len(found) else None
+
+    @property
+    def dtype(self) -> npt.DTypeLike:
+        """Of the numbers in a row."""
+        return np.float32 if self.packings is None else np.uint8
 
     @cached_property
-    def unit(self) -> float:
-        """The widest block's weight w_a: what s counts in."""
-        return self.method.blocks[self.widest].weight
+    def squared(self) -> npt.NDArray[np.bool_]:
+        """Whether the numbers of each block stand for their squares, (B,)."""
+        packings = self.packings or ()
+        return np.array([packing.squared for packing in packings] or [False] * len(self.lengths))
 
     @cached_property
-    def scales(self) -> SingleArray:
-        """The c of every number, (width,)."""
-        weights = np.array([block.weight for block in self.method.blocks])
-        scales = (weights / self.unit) ** (1.0 / self.method.power)
-        return np.repeat(scales, self.lengths).astype(np.float32)
+    def units(self) -> DoubleArray:
+        """What a difference of 1 between the numbers of a row, or their squares, stands for; (B,)."""
+        packings = self.packings or ()
+        return np.array([packing.unit for packing in packings] or [1.0] * len(self.lengths))
 
-    @cached_property
-    def rounded(self) -> npt.NDArray[np.int64]:
-        """Positions of the numbers that scaling may round, (r,)."""
-        return np.flatnonzero(self.scales != 1.0)
+    def weights(self, method: Method) -> DoubleArray:
+        """Return w u^p of each block, so that d = Σ_b (w u^p)_b S_b^p for sums S_b in whole units; (B,)."""
+        weights = np.array([block.weight for block in method.blocks])
+        return np.asarray(weights * self.units**method.power)
 
-    def join(self, blocks: Mapping[str, npt.ArrayLike], out: SingleArray | None = None) -> SingleArray:
-        """Return blocks as one long vector (width,), not scaled; BadBlock where one is missing or wrong."""
-        row = np.empty(self.width, dtype=np.float32) if out is None else out
-        for block, place in zip(self.method.blocks, self.slices, strict=True):
+    def join(self, blocks: Mapping[str, npt.ArrayLike], out: RowArray | None = None) -> RowArray:
+        """Return blocks as one row (width,); BadBlock where one is missing or wrong."""
+        row = np.empty(self.width, dtype=self.dtype) if out is None else out
+        places = zip(self.edges, self.edges[1:], strict=False)
+        for number, (block, (start, end)) in enumerate(zip(self.method.blocks, places, strict=True)):
             if block.name not in blocks:
                 raise BadBlock(f"the method {self.method.name!r} needs the block {block.name!r}")
             values = np.asarray(blocks[block.name], dtype=np.float32)
-            expected = place.stop - place.start
+            expected = end - start
             if values.shape != (expected,) or not np.isfinite(values).all():
                 raise BadBlock(f"block {block.name!r} must be {expected} finite numbers, not {values.shape}")
-            row[place] = values
+            row[start:end] = values if self.packings is None else self.packings[number].pack(values)
         return row
-
-    def distances(self, rows: SingleArray, query: SingleArray, method: Method) -> DoubleArray:
-        """Return Σ_b w_b ‖x_b − q_b‖₁^p of each row, in double precision.
-
-        Parameters
-        ----------
-        rows : (m, width) float32
-            Not scaled.
-        query : (width,) float32
-            Not scaled.
-        method : Method
-            Of this layout's blocks, perhaps with other weights.
-
-        Returns
-        -------
-        (m,) float64
-            Each row's number is the same, bit for bit, whatever rows stand beside it.
-        """
-        differences = np.abs(np.subtract(rows, query, dtype=np.float64))  # (m, width)
-        total = np.zeros(len(rows))
-        for block, place in zip(method.blocks, self.slices, strict=True):
-            sums = differences[:, place].sum(axis=1)  # (m,)
-            total += block.weight * (sums if block.power == 1 else sums * sums)
-        return total

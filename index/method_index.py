@@ -10,13 +10,13 @@ from index.catalogue import Catalogue
 from index.errors import DamagedIndex, StorageFull, VocabularyChanged
 from index.files import FileStore
 from index.gathering import Gathered, gather, put_all
-from index.index_file import Header, opened_index, save_index
+from index.index_file import Header, load_index, save_index
 from index.layout import Layout
 from index.locks import SharedLock
 from index.methods import Method
 from index.ranking import Ranked, rank
 from index.shapes import CatalogueState
-from index.vectors import Vectors
+from index.vectors import GONE, Vectors
 
 _log = logging.getLogger(__name__)
 
@@ -100,6 +100,7 @@ class MethodIndex:
         if self._holds(state):
             with self._guard.alone():
                 vectors.remove(gone)
+                vectors.settle()
                 self._state = state
 
     def _replace(self, state: CatalogueState) -> None:
@@ -117,19 +118,19 @@ class MethodIndex:
             return None
         revisions = self._catalogue.ready_revisions()
         try:
-            with opened_index(self._store.path(self._key)) as (header, pieces):
-                if not self._fits(header, state):
-                    return None
-                layout = Layout(method=self._method, lengths=tuple(header.lengths))
-                vectors = put_all((layout, ids, rows) for ids, rows in pieces)
+            header, arrays = load_index(self._store.path(self._key))
         except DamagedIndex as error:
             _log.info("the index of %s is built anew: %s", self._method.name, error)
             return None
-        if vectors is None:
+        if not self._fits(header, state):
             return None
+        layout = Layout(method=self._method, lengths=tuple(header.lengths))
         held = dict(zip(header.ids, header.revisions, strict=True))
+        held.pop(GONE, None)
+        vectors = Vectors.restored(layout, header.ids, arrays)
         if held == revisions:
             self._saved = state
+            return vectors
         current = {shape_id for shape_id in held if revisions.get(shape_id) == held[shape_id]}
         vectors.remove(held.keys() - current)
         return put_all(self._gather(state, but=current), vectors)
@@ -159,17 +160,18 @@ class MethodIndex:
         if state is None or vectors is None or state == self._saved:
             return
         revisions = self._catalogue.ready_revisions()
-        shown = [revisions.get(shape_id, 0) for shape_id in vectors.ids]
+        ids = list(vectors.ids)
+        shown = [revisions.get(shape_id, 0) for shape_id in ids]
         header = Header(
             library=state.library,
             epoch=state.epoch,
             vocabulary_id=state.vocabulary_id,
             blocks=self._names,
             lengths=list(vectors.layout.lengths),
-            ids=list(vectors.ids),
+            ids=ids,
             revisions=[revision if revision <= state.revision else 0 for revision in shown],
         )
-        save_index(self._store, self._key, header, vectors)
+        save_index(self._store, self._key, header, vectors.arrays())
         self._saved = state
 
 

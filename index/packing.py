@@ -6,11 +6,9 @@ What is kept is what is compared: a number counts as the one that its byte stand
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
-from index.arrays import SingleArray
+from index.arrays import ByteArray, SingleArray
 
-ByteArray = npt.NDArray[np.uint8]
 MIDDLE = 128  # byte of zero where numbers have a sign
 
 

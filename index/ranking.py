@@ -1,37 +1,35 @@
-"""Ranking: the exact k nearest, proven without comparing all of them.
+"""Ranking: the exact k nearest, proven without reading most rows.
 
-1. faiss gives candidates by the scaled L1 distance s (see `Layout`).
-2. Their distances d are computed exactly, in double precision from the stored numbers.
-3. A shape with d no greater than the k-th of them has s within a radius that follows from the relation of
-   d and s and from the rounding of single precision. If the candidates reach beyond that radius, nothing
-   is missing: the answer is certified.
-4. Otherwise faiss gives everything within the radius, and step 2 on that is the answer.
+1. The sketch gives rows that are likely to be near. The k-th least of their exact distances is a limit: what
+   is farther is not among the k nearest.
+2. By bounds from below (see `index.bounds`) the sketch rules out most boxes of rows, and most rows of the
+   others.
+3. Of the rows that are left, those with the least bounds are compared exactly, which lowers the limit; then
+   the rest within it.
 
-Equal distances are ordered by id, ascending; all shapes with equal distance lie within the radius, so this
-holds across the border of the candidates too.
+A bound never exceeds the distance, and rows that equal the limit are kept: the answer is that of comparing
+all. Equal distances are ordered by id, ascending.
 """
 
-import math
 from collections.abc import Collection
 
 import numpy as np
 
-from index.arrays import PositionArray, SingleArray
-from index.layout import Layout
+from index.arrays import DoubleArray, PositionArray, RowArray
+from index.distances import distances
 from index.methods import Method
+from index.sketch import MARGIN, Sketch
 from index.vectors import Vectors
 
-_ROUNDING = 2.0**-24  # relative, of one operation in single precision
-_SMALLEST = 2.0**-125  # absolute, where single precision runs out of exponents
-_LARGEST = float(np.finfo(np.float32).max)
-_CHUNK = 256  # rows compared at once: they stay in the processor's cache
+FIRST = 4  # times as many rows as are wanted give the first limit
+SECOND = 16  # times as many give the second, where more are left
 
 Ranked = list[tuple[str, float]]
 
 
 def rank(
     vectors: Vectors,
-    query: SingleArray,
+    query: RowArray,
     limit: int,
     exclude: Collection[str] = (),
     method: Method | None = None,
@@ -42,91 +40,76 @@ def rank(
     ----------
     vectors : Vectors
         What is searched.
-    query : (width,) float32
-        Not scaled; see `Layout.join`.
+    query : (width,) array
+        See `Layout.join`.
     limit : int
         How many at most.
     exclude : collection of str
         Ids that are not wanted.
     method : Method, optional
-        The layout's own, or with other weights; for the latter all vectors are compared exactly.
+        The layout's own, or with other weights.
 
     Returns
     -------
     list of (id, distance)
         As comparing all of them would give.
     """
-    unwanted = vectors.positions(exclude)
-    wanted = min(limit, len(vectors) - unwanted.size)
+    hidden = vectors.positions(exclude)
+    wanted = min(limit, len(vectors) - hidden.size)
     if wanted <= 0:
         return []
-    search = _Search(vectors, query, wanted, unwanted, method or vectors.layout.method)
-    if search.method.blocks != vectors.layout.method.blocks:
-        return search.all()
-    return search.certified(candidates=4 * wanted + 32 + unwanted.size)
-
-
-def certain_radius(layout: Layout, distance: float, norms: float) -> float:
-    """Return a bound on faiss's s for every vector whose exact distance is at most `distance`.
-
-    Parameters
-    ----------
-    layout : Layout
-        Of both vectors.
-    distance : float
-        d, in the method's unit.
-    norms : float
-        L1 norm of the scaled query plus the largest of a scaled vector: numbers are rounded in
-        proportion to themselves, not to their differences.
-    """
-    power, n_blocks = layout.method.power, len(layout.lengths)
-    s: float = (distance / layout.unit * n_blocks ** (power - 1)) ** (1.0 / power)
-    relative = (layout.width + 32) * _ROUNDING  # of a sum of so many terms, whatever their order
-    absolute = 4 * _ROUNDING * norms + layout.width * _SMALLEST
-    return (s * (1 + relative) + absolute) / (1 - relative)
+    search = _Search(vectors, query, wanted, hidden, method or vectors.layout.method)
+    if vectors.sketch is None:
+        return search.best(vectors.here)
+    return search.certified(vectors.sketch)
 
 
 class _Search:
     """One query on its way through the steps above."""
 
     def __init__(
-        self, vectors: Vectors, query: SingleArray, wanted: int, unwanted: PositionArray, method: Method
+        self, vectors: Vectors, query: RowArray, wanted: int, hidden: PositionArray, method: Method
     ) -> None:
         self.vectors = vectors
         self.query = query
         self.wanted = wanted
-        self.unwanted = unwanted
+        self.hidden = hidden
         self.method = method
 
-    def certified(self, candidates: int) -> Ranked:
-        if candidates >= len(self.vectors):
-            return self.all()
-        positions, sums = self.vectors.nearest(self.query, candidates)
-        if positions.min() < 0:  # numbers too large for single precision
-            return self.all()
-        best = self.best(positions)
-        radius = self.radius(best[-1][1])
-        if sums[-1] > radius:
-            return best
-        return self.best(self.vectors.within(self.query, radius)) if radius < _LARGEST else self.all()
+    def certified(self, sketch: Sketch) -> Ranked:
+        candidates = sketch.candidates(self.query, self.method, self.vectors.largest)
+        enough = self.wanted + self.hidden.size
+        limit = self.limit(candidates.by_centres(FIRST * enough))
+        candidates.look_at_rows(limit)
+        limit = min(limit, self.limit(candidates.by_bounds(FIRST * enough)))
+        positions, bounds = candidates.within(limit)
+        if len(positions) > 2 * SECOND * enough:
+            least = np.argpartition(bounds, SECOND * enough)[: SECOND * enough]
+            limit = min(limit, self.limit(positions[least]))
+            positions = positions[bounds <= limit * (1.0 + MARGIN)]
+        return self.best(positions)
 
-    def all(self) -> Ranked:
-        return self.best(np.arange(len(self.vectors)))
+    def limit(self, positions: PositionArray) -> float:
+        """Return a distance that is exceeded by none of the nearest."""
+        found = self.distances(self.open(positions))
+        if len(found) < self.wanted:
+            return np.inf
+        return float(np.partition(found, self.wanted - 1)[self.wanted - 1])
 
     def best(self, positions: PositionArray) -> Ranked:
-        positions = positions[~np.isin(positions, self.unwanted)]
-        distances = np.concatenate(
-            [
-                self.vectors.layout.distances(self.vectors.rows(some), self.query, self.method)
-                for some in np.array_split(positions, math.ceil(positions.size / _CHUNK))
-            ]
-        )
-        worst = np.partition(distances, self.wanted - 1)[self.wanted - 1]
-        near = np.flatnonzero(distances <= worst)  # ties with the last one too
+        """Return the nearest of these rows."""
+        positions = self.open(positions)
+        found = self.distances(positions)
+        worst = np.partition(found, self.wanted - 1)[self.wanted - 1]
+        near = np.flatnonzero(found <= worst)  # ties with the last one too
         ids = self.vectors.ids
-        ranked = sorted((float(distances[i]), ids[positions[i]]) for i in near)
+        ranked = sorted((float(found[i]), ids[positions[i]]) for i in near)
         return [(shape_id, distance) for distance, shape_id in ranked[: self.wanted]]
 
-    def radius(self, distance: float) -> float:
-        own = np.abs(self.vectors.scaled(self.query)).sum(dtype=np.float64)
-        return certain_radius(self.vectors.layout, distance, float(own) + self.vectors.largest_norm)
+    def open(self, positions: PositionArray) -> PositionArray:
+        """Leave out what was removed or is not wanted."""
+        positions = self.vectors.only_here(positions)
+        return positions[~np.isin(positions, self.hidden)] if self.hidden.size else positions
+
+    def distances(self, positions: PositionArray) -> DoubleArray:
+        return distances(self.vectors.rows, positions, self.query, self.vectors.layout, self.method)

@@ -1,111 +1,137 @@
-"""Vectors: a method's long vectors in faiss. The only file that imports it."""
+"""Vectors: the rows of a method's index under their ids, with a sketch of them where they are many."""
 
 from collections.abc import Collection, Sequence
+from typing import Any
 
-import faiss
 import numpy as np
+import numpy.typing as npt
 
-from index.arrays import PositionArray, SingleArray
+from index.arrays import PositionArray, RowArray
+from index.coding import Coding
+from index.distances import levels_of
 from index.layout import Layout
+from index.reordering import reorder
+from index.sketch import Sketch
+
+SKETCHED = 4096  # rows from which a sketch pays
+STALE = 0.25  # share of rows, removed or out of order, from which the order is made anew
+SPARE = 1.1  # room for more rows, relative to what is needed
+PIECE = 16_384  # rows looked at at once
+GONE = ""  # id of a removed row
 
 
 class Vectors:
-    """Shapes' vectors under their ids, searched by L1.
+    """Rows under ids.
 
-    faiss holds them scaled; what scaling rounds is kept a second time, so that every vector can be
-    given back bit for bit. Not safe for a writer beside readers: faiss crashes. See `index.locks`.
+    A removed row stays in its place, without an id, until the order is made anew. A writer must be alone:
+    see `index.locks`.
 
     Parameters
     ----------
     layout : Layout
-        Of every vector.
+        Of every row.
     """
 
     def __init__(self, layout: Layout) -> None:
         self.layout = layout
-        # Flat alone: SQ8 and PQ variants raise, give wrong answers or abort the process with L1.
-        self._flat = faiss.IndexFlat(layout.width, faiss.METRIC_L1)
-        self._unscaled = np.empty((0, layout.rounded.size), dtype=np.float32)  # (capacity, r)
+        self.sketch: Sketch | None = None
+        self.largest = 0.0  # L1 norm of any row so far, in whole units: bounds the rounding of sums
+        self._rows: RowArray = np.empty((0, layout.width), layout.dtype)  # with room for more
+        self._here = np.empty(0, np.bool_)  # the same length
         self._ids: list[str] = []
         self._positions: dict[str, int] = {}
-        self.largest_norm = 0.0  # of any scaled vector so far, L1: bounds the rounding of distances
+        self._ordered = 0  # rows that are in the order of the sketch
 
     def __len__(self) -> int:
-        return len(self._ids)
+        return len(self._positions)
 
     @property
     def ids(self) -> Sequence[str]:
-        """The ids, by position."""
+        """The ids, by position; GONE where a row was removed."""
         return self._ids
+
+    @property
+    def rows(self) -> RowArray:
+        """The rows, by position, removed ones included."""
+        return self._rows[: len(self._ids)]
+
+    @property
+    def here(self) -> PositionArray:
+        """The positions of all that are not removed."""
+        return np.flatnonzero(self._here[: len(self._ids)])
+
+    def only_here(self, positions: PositionArray) -> PositionArray:
+        """Return those positions whose row is not removed."""
+        return positions[self._here[positions]]
 
     def positions(self, ids: Collection[str]) -> PositionArray:
         """Return where those of `ids` are that are here."""
         return np.array([self._positions[i] for i in set(ids) if i in self._positions], dtype=np.int64)
 
-    def put(self, ids: Sequence[str], rows: SingleArray) -> None:
-        """Add vectors (m, width), not scaled, under distinct ids; known ids get the new ones in place."""
-        new = np.array([i not in self._positions for i in ids], dtype=bool)
-        old = np.array([self._positions[i] for i in ids if i in self._positions], dtype=np.int64)
-        scaled = self.scaled(rows)
-        if len(ids):
-            norms = np.abs(scaled).sum(axis=1, dtype=np.float64)
-            self.largest_norm = max(self.largest_norm, float(norms.max()))
-        if old.size:
-            self._stored()[old] = scaled[~new]
-            self._unscaled[old] = rows[~new][:, self.layout.rounded]
-        self._append([i for i in ids if i not in self._positions], rows[new], scaled[new])
-
-    def remove(self, ids: Collection[str]) -> None:
-        """Forget vectors; unknown ids are fine."""
-        gone = self.positions(ids)
-        if not gone.size:
-            return
-        stays = np.ones(len(self), dtype=bool)
-        stays[gone] = False
-        self._flat.remove_ids(faiss.IDSelectorBatch(gone))  # keeps the order of the others
-        self._unscaled = self._unscaled[: len(stays)][stays]
-        self._ids = [i for i, kept in zip(self._ids, stays, strict=True) if kept]
-        self._positions = {i: position for position, i in enumerate(self._ids)}
-
-    def scaled(self, rows: SingleArray) -> SingleArray:
-        """Return vectors (…, width) as faiss compares them."""
-        with np.errstate(over="ignore"):  # what overflows is found by an exact scan
-            return rows * self.layout.scales
-
-    def nearest(self, query: SingleArray, count: int) -> tuple[PositionArray, SingleArray]:
-        """Return positions and scaled L1 distances, ascending, of the `count` nearest.
-
-        Distances are single precision sums. A position is -1 where faiss found no finite distance.
-        """
-        sums, positions = self._flat.search(self.scaled(query)[None], count)
-        return positions[0], sums[0]
-
-    def within(self, query: SingleArray, radius: float) -> PositionArray:
-        """Return the positions of all vectors whose scaled L1 distance is at most `radius`."""
-        beyond = float(np.nextafter(np.float32(radius), np.float32(np.inf)))  # faiss takes those below
-        positions: PositionArray = self._flat.range_search(self.scaled(query)[None], beyond)[2]
-        return positions
-
-    def rows(self, positions: PositionArray) -> SingleArray:
-        """Return vectors (m, width) exactly as they were put, not scaled."""
-        rows: SingleArray = self._stored()[positions]
-        rows[:, self.layout.rounded] = self._unscaled[positions]
-        return rows
-
-    def _append(self, ids: Sequence[str], rows: SingleArray, scaled: SingleArray) -> None:
-        start, end = len(self), len(self) + len(ids)
-        if end > len(self._unscaled):
-            larger = np.empty((max(end, 2 * start), self.layout.rounded.size), dtype=np.float32)
-            larger[:start] = self._unscaled[:start]
-            self._unscaled = larger
-        self._unscaled[start:end] = rows[:, self.layout.rounded]
-        self._flat.add(np.ascontiguousarray(scaled))
+    def put(self, ids: Sequence[str], rows: RowArray) -> None:
+        """Add rows (m, width) under distinct ids; what was known under them is removed."""
+        self.remove(ids)
+        start, end = len(self._ids), len(self._ids) + len(ids)
+        self._reserve(end)
+        self._rows[start:end] = rows
+        self._here[start:end] = True
         self._ids.extend(ids)
         self._positions.update(zip(ids, range(start, end), strict=True))
+        self._measure(rows)
+        if self.sketch is not None:
+            self.sketch.append(rows)
 
-    def _stored(self) -> SingleArray:
-        if not self._flat.ntotal:
-            return np.empty((0, self.layout.width), dtype=np.float32)
-        numbers = faiss.rev_swig_ptr(self._flat.get_xb(), self._flat.ntotal * self.layout.width)
-        view: SingleArray = numbers.reshape(-1, self.layout.width)  # faiss's own memory
-        return view
+    def remove(self, ids: Collection[str]) -> None:
+        """Forget rows; unknown ids are fine."""
+        for shape_id in ids:
+            position = self._positions.pop(shape_id, None)
+            if position is not None:
+                self._here[position] = False
+                self._ids[position] = GONE
+
+    def settle(self) -> None:
+        """Put the rows in order, where there are many and a good part of them is not."""
+        removed = len(self._ids) - len(self)
+        if len(self) >= SKETCHED and len(self._ids) - self._ordered + removed > STALE * len(self):
+            if removed:
+                self._take(self.here)
+            coding = Coding.learn(self.rows, self.layout)
+            self.sketch, order = Sketch.learn(self.rows, coding)
+            self._take(order)
+            self._ordered = len(order)
+
+    def arrays(self) -> dict[str, npt.NDArray[Any]]:
+        """Return all that `restored` needs beside the ids; views, not copies."""
+        return {"rows": self.rows} | ({} if self.sketch is None else self.sketch.arrays())
+
+    @classmethod
+    def restored(cls, layout: Layout, ids: list[str], arrays: dict[str, npt.NDArray[Any]]) -> "Vectors":
+        """Return the vectors that gave these ids and arrays; the arrays become theirs."""
+        vectors = cls(layout)
+        vectors._rows = arrays["rows"]
+        vectors._ids = ids
+        vectors._positions = {shape_id: position for position, shape_id in enumerate(ids) if shape_id != GONE}
+        vectors._here = np.array([shape_id != GONE for shape_id in ids], np.bool_)
+        if len(arrays) > 1:
+            vectors.sketch = Sketch.restored(layout, arrays)
+            vectors._ordered = len(ids)
+        vectors._measure(vectors._rows)
+        return vectors
+
+    def _measure(self, rows: RowArray) -> None:
+        for first in range(0, len(rows), PIECE):
+            norms = np.abs(levels_of(rows[first : first + PIECE], self.layout)).sum(axis=1)
+            self.largest = max(self.largest, float(norms.max()))
+
+    def _take(self, order: PositionArray) -> None:
+        """Keep these rows alone, in this order."""
+        reorder(self._rows, order)
+        self._ids = [self._ids[position] for position in order.tolist()]
+        self._here[: len(order)] = True
+        self._positions = {shape_id: position for position, shape_id in enumerate(self._ids)}
+
+    def _reserve(self, n_rows: int) -> None:
+        if n_rows > len(self._rows):
+            room = max(n_rows, int(SPARE * len(self._rows)))
+            self._rows.resize((room, self.layout.width), refcheck=False)  # in place where the system can
+            self._here.resize(room, refcheck=False)
