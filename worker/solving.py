@@ -1,5 +1,7 @@
 """Spectra of surfaces: the operator that the parameters name, and its eigenpairs."""
 
+from scipy import sparse
+
 from worker.arrays import FloatArray, IntArray
 from worker.geometry.areas import edge_lengths, triangle_areas, vertex_areas
 from worker.geometry.laplacian import cotangent_laplacian, joint_embedding, mesh_laplacian
@@ -26,14 +28,20 @@ def solve_joint(
     Eigenpairs
         All below the cutoff: the finer one for η = 0.
     """
-    points = joint_embedding(vertices, lab, weight)
+    stiffness, mass = operator_of(vertices, faces, lab, weight, parameters)
     cutoff = parameters.cutoff if weight else parameters.fine_cutoff
-    if parameters.operator is Operator.COTANGENT:
-        stiffness, mass = cotangent_laplacian(points, faces)
-    else:
-        mass = areas_of(points, faces)
-        stiffness, mass = mesh_laplacian(points, mass, parameters.kernel_width, parameters.kernel_tail)
     return solve_eigenpairs(vertices, stiffness, mass, cutoff, parameters.eigenpairs)
+
+
+def operator_of(
+    vertices: FloatArray, faces: IntArray, lab: FloatArray, weight: float, parameters: Parameters
+) -> tuple[sparse.csc_array, FloatArray]:
+    """Return W (n, n) and the diagonal of A (n,); arguments as for `solve_joint`."""
+    points = joint_embedding(vertices, lab, weight)
+    if parameters.operator is Operator.COTANGENT:
+        return cotangent_laplacian(points, faces)
+    mass = areas_of(points, faces)
+    return mesh_laplacian(points, mass, parameters.kernel_width, parameters.kernel_tail)
 
 
 def areas_of(points: FloatArray, faces: IntArray) -> FloatArray:

@@ -143,7 +143,7 @@ def _count(bits: IntArray, shares: FloatArray, lowest: int, counts: FloatArray) 
 
 
 def _coordinates(eigenvalues: FloatArray, eigenfunctions: FloatArray, time: float) -> Coordinates:
-    """Return points (s, k) whose distances are d_t, −2 times their transpose (k, s), and squared norms (s,)."""
+    """Return points (s, k) whose distances are d_t, −2 times those (k, s), and squared norms (s,)."""
     decay = np.exp(-eigenvalues * time)
     kept = decay >= FADED * decay[:2].min(initial=1.0)  # the first is that of a constant
     coordinates = eigenfunctions[:, kept] * decay[kept]  # constant functions cancel in the differences

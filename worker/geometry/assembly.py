@@ -27,7 +27,7 @@ def laplacian_of(tails: IntArray, heads: IntArray, weights: FloatArray, n_vertic
 
 
 @compiled
-def _columns(
+def _columns(  # noqa: C901 - compiled: one loop, plainly
     tails: IntArray, heads: IntArray, weights: FloatArray, n: int
 ) -> tuple[FloatArray, IntArray, IntArray]:
     """Return values, rows and starts of the columns.

@@ -96,7 +96,7 @@ def _cosine(a: float, b: float, c: float) -> float:
 
 
 @compiled
-def _flip(tails: IntArray, sides: FloatArray, twins: IntArray, half: int) -> bool:
+def _flip(tails: IntArray, sides: FloatArray, twins: IntArray, half: int) -> bool:  # noqa: C901 - compiled: one loop, plainly
     """Flip an edge in place where its opposite angles sum to more than π; tell whether it was flipped.
 
     Faces (a, b, c) and (b, a, d) with the edge a b become (c, d, b) and (d, c, a).

@@ -71,7 +71,7 @@ def _dissected(places: IntArray, starts: IntArray, neighbours: IntArray) -> tupl
 
 
 @compiled
-def _best_plane(
+def _best_plane(  # noqa: C901 - compiled: one loop, plainly
     places: IntArray, starts: IntArray, neighbours: IntArray, vertices: IntArray, owner: IntArray, own: int
 ) -> tuple[int, int]:
     """Return axis and place of the best cut of a set; −1 where there is none."""

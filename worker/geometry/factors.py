@@ -1,7 +1,7 @@
 """A sparse symmetric matrix as a product L D Lᵀ of blocks, without exchanges between fronts.
 
-Each front is eliminated by panels: with the pivot block A₁₁ and the rest A₁₂ of a panel's rows, H = A₁₁⁻¹ A₁₂
-is kept, and A₂₂ − A₁₂ᵀ H goes on. All work is products of small dense matrices.
+Multifrontal: Duff and Reid (1983); the signs of the pivots tell the inertia (Sylvester's law), so that a
+count of eigenvalues comes with each factorisation.
 """
 
 from dataclasses import dataclass
@@ -10,10 +10,9 @@ import numpy as np
 
 from worker.arrays import FloatArray, IntArray
 from worker.compiled import compiled
+from worker.geometry.elimination import STRIP, WIDE, eliminate, panel_width
 from worker.geometry.fronts import Fronts
 
-PANEL = 32  # columns eliminated at once
-STRIP = 96  # rows brought up to date at once: only what is right of the diagonal is computed
 TINY = 1e-13  # a pivot relative to the largest entry of the diagonal, below which it counts as 0
 
 
@@ -71,33 +70,31 @@ def factorise(
 @compiled
 def _panels(groups: IntArray, begins: IntArray, rows: IntArray) -> tuple[IntArray, IntArray]:
     """Cut fronts into panels: those of a front follow each other, the later ones are rows of the earlier."""
-    n_groups = len(groups) - 1
-    widths = groups[1:] - groups[:-1]
-    n_panels = ((widths + PANEL - 1) // PANEL).sum()
-    panels = np.empty((n_panels, 4), np.int64)
-    every = np.empty(
-        len(rows) + (widths * widths).sum() + (widths // PANEL * (begins[1:] - begins[:-1])).sum(), np.int64
-    )
-    panel, n_rows = 0, 0
-    for group in range(n_groups):
+    n_panels, n_rows = 0, 0
+    for group in range(len(groups) - 1):  # counts, with rows to spare
+        width, n_rest = groups[group + 1] - groups[group], begins[group + 1] - begins[group]
+        n_own = (width - 1) // panel_width(width + n_rest) + 1
+        n_panels += n_own
+        n_rows += n_own * (width + n_rest)
+    panels, every = np.empty((n_panels, 4), np.int64), np.empty(n_rows, np.int64)
+    panel, used = 0, 0
+    for group in range(len(groups) - 1):
         begin, end = groups[group], groups[group + 1]
-        for first in range(begin, end, PANEL):
-            last = min(first + PANEL, end)
-            n_own = n_rows
-            for place in range(last, end):
-                every[n_rows] = place
-                n_rows += 1
-            for k in range(begins[group], begins[group + 1]):
-                every[n_rows] = rows[k]
-                n_rows += 1
-            panels[panel, 0], panels[panel, 1] = first, last - first
-            panels[panel, 2], panels[panel, 3] = n_own, n_rows - n_own
+        n_rest = begins[group + 1] - begins[group]
+        step = panel_width(end - begin + n_rest)
+        for first in range(begin, end, step):
+            last = min(first + step, end)
+            n_later = end - last
+            panels[panel] = first, last - first, used, n_later + n_rest
+            every[used : used + n_later] = np.arange(last, end)
+            every[used + n_later : used + n_later + n_rest] = rows[begins[group] : begins[group + 1]]
+            used += n_later + n_rest
             panel += 1
-    return panels, every[:n_rows].copy()
+    return panels, every[:used].copy()
 
 
 @compiled
-def _factorised(
+def _factorised(  # noqa: C901 - compiled: one loop, plainly
     order: IntArray,
     places: IntArray,
     groups: IntArray,
@@ -110,11 +107,11 @@ def _factorised(
     diagonal: FloatArray,
     blocks: FloatArray,
 ) -> int:
-    """Factor front by front, children before parents; return what `_eliminate` does."""
+    """Factor front by front, children before parents; return what `eliminate` counts."""
     n_groups = len(groups) - 1
     sizes = groups[1:] - groups[:-1] + begins[1:] - begins[:-1]
     largest = sizes.max()
-    buffer, work = np.empty(largest * largest), np.empty((2 * PANEL + STRIP + 8) * (largest + PANEL))
+    buffer, work = np.empty(largest * largest), np.empty((2 * WIDE + STRIP) * (largest + WIDE))
     local = np.empty(len(order), np.int64)
     stack, used, n_waiting = np.empty(1 << 16), 0, 0
     waiting = np.empty(n_groups, np.int64)
@@ -148,7 +145,7 @@ def _factorised(
                 row = front[own[i]]
                 for j in range(i, n_rest):
                     row[own[j]] += stack[used + i * n_rest + j]
-        found, offset = _eliminate(front, width, least, blocks, offset, work)
+        found, offset = eliminate(front, width, least, blocks, offset, work)
         if found < 0:
             return -1
         negative += found
@@ -165,160 +162,3 @@ def _factorised(
             waiting[n_waiting] = group
             n_waiting += 1
     return negative
-
-
-@compiled
-def _eliminate(
-    front: FloatArray, width: int, least: float, blocks: FloatArray, offset: int, work: FloatArray
-) -> tuple[int, int]:
-    """Eliminate the first rows of a front (its upper triangle), in place, and keep their blocks.
-
-    Returns
-    -------
-    negative : int
-        Negative pivots; −1 where one is 0.
-    offset : int
-        Where the next blocks begin.
-    """
-    size, negative = len(front), 0
-    for first in range(0, width, PANEL):
-        last = min(first + PANEL, width)
-        n_own, n_rest = last - first, size - last
-        inverse = blocks[offset : offset + n_own * n_own].reshape(n_own, n_own)
-        offset += n_own * n_own
-        for i in range(n_own):
-            for j in range(i, n_own):
-                inverse[i, j] = inverse[j, i] = front[first + i, first + j]
-        found = _invert(inverse, least)
-        if found < 0:
-            return -1, offset
-        negative += found
-        if n_rest > 0:
-            panel = work[: n_own * n_rest].reshape(n_own, n_rest)
-            for i in range(n_own):
-                panel[i] = front[first + i, last:]
-            product = blocks[offset : offset + n_own * n_rest].reshape(n_own, n_rest)
-            offset += n_own * n_rest
-            np.dot(inverse, panel, product)
-            _subtract(front[last:, last:], product, panel, work[n_own * n_rest :])
-    return negative, offset
-
-
-@compiled
-def _subtract(rest: FloatArray, product: FloatArray, panel: FloatArray, work: FloatArray) -> None:
-    """Subtract productᵀ panel from the upper triangle of a square, in place."""
-    n_own, n_rest = panel.shape
-    for first in range(0, n_rest, STRIP):
-        last = min(first + STRIP, n_rest)
-        n_rows, n_columns = last - first, n_rest - first
-        left = work[: n_rows * n_own].reshape(n_rows, n_own)
-        for i in range(n_rows):
-            for k in range(n_own):
-                left[i, k] = product[k, first + i]
-        right = panel
-        used = n_rows * n_own
-        if first > 0:
-            right = work[used : used + n_own * n_columns].reshape(n_own, n_columns)
-            used += n_own * n_columns
-            for k in range(n_own):
-                right[k] = panel[k, first:]
-        change = work[used : used + n_rows * n_columns].reshape(n_rows, n_columns)
-        np.dot(left, right, change)
-        for i in range(n_rows):
-            row = rest[first + i]
-            for j in range(i, n_columns):
-                row[first + j] -= change[i, j]
-
-
-@compiled
-def _invert(matrix: FloatArray, least: float) -> int:
-    """Invert a symmetric matrix in place; return how many pivots are negative, −1 where one is small.
-
-    Gauss-Jordan elimination, the largest entry of the diagonal first.
-    """
-    n, negative = len(matrix), 0
-    done = np.zeros(n, np.bool_)
-    for _ in range(n):
-        k = -1
-        for i in range(n):
-            if not done[i] and (k < 0 or abs(matrix[i, i]) > abs(matrix[k, k])):
-                k = i
-        pivot = matrix[k, k]
-        if not abs(pivot) > least:
-            return -1
-        done[k] = True
-        negative += pivot < 0
-        row = matrix[k]
-        for j in range(n):
-            row[j] /= pivot
-        row[k] = 1.0 / pivot
-        for i in range(n):
-            if i != k:
-                other = matrix[i]
-                factor = other[k]
-                other[k] = 0.0
-                for j in range(n):
-                    other[j] -= factor * row[j]
-    return negative
-
-
-def solve(factors: Factors, sides: FloatArray) -> FloatArray:
-    """Return the solutions for right-hand sides; both (b, n), contiguous."""
-    fronts = factors.fronts
-    return _solved(fronts.order, factors.panels, factors.rows, factors.offsets, factors.blocks, sides)
-
-
-@compiled
-def _solved(
-    order: IntArray,
-    panels: IntArray,
-    rows: IntArray,
-    offsets: IntArray,
-    blocks: FloatArray,
-    sides: FloatArray,
-) -> FloatArray:
-    """Bring sides into the order of the fronts, one place a row, and solutions back."""
-    n_sides, n = sides.shape
-    solution, solved = np.empty((n, n_sides)), np.empty((n_sides, n))
-    for place in range(n):
-        for k in range(n_sides):
-            solution[place, k] = sides[k, order[place]]
-    _solve(panels, rows, offsets, blocks, solution)
-    for place in range(n):
-        for k in range(n_sides):
-            solved[k, order[place]] = solution[place, k]
-    return solved
-
-
-@compiled
-def _solve(
-    panels: IntArray, rows: IntArray, offsets: IntArray, blocks: FloatArray, solution: FloatArray
-) -> None:
-    """Solve in place, in the order of the fronts."""
-    n_columns = solution.shape[1]
-    work = np.empty((panels[:, 3].max() + PANEL) * n_columns)
-    for panel in range(len(panels)):
-        begin, n_own, first, n_rest = panels[panel]
-        if n_rest > 0:
-            product = blocks[offsets[panel] + n_own * n_own : offsets[panel + 1]].reshape(n_own, n_rest)
-            change = work[: n_rest * n_columns].reshape(n_rest, n_columns)
-            np.dot(product.T, solution[begin : begin + n_own], change)
-            for i in range(n_rest):
-                place = rows[first + i]
-                for j in range(n_columns):
-                    solution[place, j] -= change[i, j]
-    for panel in range(len(panels) - 1, -1, -1):
-        begin, n_own, first, n_rest = panels[panel]
-        own = work[: n_own * n_columns].reshape(n_own, n_columns)
-        inverse = blocks[offsets[panel] : offsets[panel] + n_own * n_own].reshape(n_own, n_own)
-        np.dot(inverse, solution[begin : begin + n_own], own)
-        solution[begin : begin + n_own] = own
-        if n_rest > 0:
-            product = blocks[offsets[panel] + n_own * n_own : offsets[panel + 1]].reshape(n_own, n_rest)
-            known = work[n_own * n_columns : (n_own + n_rest) * n_columns].reshape(n_rest, n_columns)
-            for i in range(n_rest):
-                place = rows[first + i]
-                for j in range(n_columns):
-                    known[i, j] = solution[place, j]
-            np.dot(product, known, own)
-            solution[begin : begin + n_own] -= own

@@ -45,7 +45,7 @@ def find_fronts(points: FloatArray, starts: IntArray, neighbours: IntArray) -> F
 def _rows(
     order: IntArray, groups: IntArray, starts: IntArray, neighbours: IntArray
 ) -> tuple[IntArray, IntArray, IntArray, IntArray]:
-    """Return places, begins, rows and parents: each front takes what its vertices and its children are coupled to."""
+    """Return places, begins, rows and parents: a front takes what its own are coupled to."""
     n, n_groups = len(order), len(groups) - 1
     places = np.empty(n, np.int64)
     places[order] = np.arange(n)

@@ -2,8 +2,8 @@
 
 Golub and Underwood (1977); several vectors are taken at once, since a factorised matrix solves several right
 hand sides in little more time than one. Blocks are orthogonal to the two before them by construction;
-orthogonality to all others decays over some steps (Paige 1971) and is restored for two blocks at a time, before
-it has lost more than four digits (Grcar 1981; Simon 1984).
+orthogonality to all others decays over some steps (Paige 1971) and is restored for two blocks at a time,
+before it has lost more than four digits (Grcar 1981; Simon 1984).
 """
 
 from collections.abc import Callable
@@ -12,8 +12,9 @@ import numpy as np
 from scipy import linalg
 
 from worker.arrays import FloatArray
+from worker.geometry.substitution import SIDES
 
-BLOCK = 4  # vectors of a step
+BLOCK = SIDES  # vectors of a step
 PERIOD = 3  # steps from one restoration to the next
 EVERY = 2  # steps from one look at the convergence to the next
 TOLERANCE = 1e-7  # of a residual, relative to the least eigenvalue wanted

@@ -44,7 +44,9 @@ def _buckets(points: FloatArray) -> tuple[IntArray, IntArray]:
 
 
 @compiled
-def _picked(points: FloatArray, order: IntArray, buckets: IntArray, first: int, n_samples: int) -> IntArray:
+def _picked(  # noqa: C901 - compiled: one loop, plainly
+    points: FloatArray, order: IntArray, buckets: IntArray, first: int, n_samples: int
+) -> IntArray:
     """Pick the farthest points; of equally far ones that with the least index.
 
     Only buckets that may hold a point nearer to the latest than to all before are visited.

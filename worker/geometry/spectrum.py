@@ -11,9 +11,10 @@ from scipy.sparse import csgraph
 
 from worker.arrays import FloatArray, IntArray
 from worker.errors import Code, MeshError
-from worker.geometry.factors import Factors, factorise, solve
+from worker.geometry.factors import Factors, factorise
 from worker.geometry.fronts import Fronts, find_fronts
 from worker.geometry.lanczos import dominant_pairs
+from worker.geometry.substitution import solve
 
 DENSE = 400  # connected pieces of no more vertices are solved densely
 CROWDED = 0.2  # of all pairs wanted: from here a piece is solved densely as well
@@ -76,15 +77,21 @@ def solve_eigenpairs(
     MeshError
         ``unsolved`` where the pairs found are not as many as the inertia says.
     """
-    solved = []
+    solved = [
+        (rows, *_solve_piece(points[rows], piece, mass[rows], cutoff, most))
+        for rows, piece in pieces_of(stiffness, mass)
+    ]
+    return _joined(solved, len(mass))
+
+
+def pieces_of(stiffness: sparse.csc_array, mass: FloatArray) -> Iterator[tuple[IntArray, sparse.csc_array]]:
+    """Yield the rows and the matrix of each connected piece, without vertices that have no area."""
     for rows, piece in _pieces(stiffness):
         massive = np.flatnonzero(mass[rows] > 0)
-        if len(massive) == 0:
-            continue
-        if len(massive) < len(rows):
-            rows, piece = rows[massive], sparse.csc_array(piece[massive][:, massive])
-        solved.append((rows, *_solve_piece(points[rows], piece, mass[rows], cutoff, most)))
-    return _joined(solved, len(mass))
+        if len(massive) == len(rows):
+            yield rows, piece
+        elif len(massive):
+            yield rows[massive], sparse.csc_array(piece[massive][:, massive])
 
 
 def _pieces(stiffness: sparse.csc_array) -> Iterator[tuple[IntArray, sparse.csc_array]]:
