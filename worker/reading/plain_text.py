@@ -11,6 +11,9 @@ POWERS = 10.0 ** np.arange(23)  # exact in double precision
 WHOLE = 2**53  # integers below it are doubles
 LONGEST = 2**62 // 10  # ten times it and a digit fit into 63 bits
 DIGITS = 18  # of a whole number
+MINUS, PLUS, SLASH, POINT, HASH = b"-+/.#"
+LETTER_E, CAPITAL_E = b"eE"
+LETTER_F, LETTER_G, LETTER_N, LETTER_O, LETTER_S, LETTER_T, LETTER_V = b"fgnostv"
 
 NONE, OTHER, VERTEX, UV, FACE, MATERIAL, LIBRARY, COMMENT = range(8)  # kinds of lines
 
@@ -137,17 +140,17 @@ def _line_end(text: ByteArray, at: int) -> int:
 def _kind(text: ByteArray, start: int, end: int) -> int:
     """Tell a line by its first word; NONE for those that are left to others."""
     first, length = text[start], end - start
-    if first == ord("#"):
+    if first == HASH:
         return COMMENT
     if length == 1:
-        if first == ord("v"):
+        if first == LETTER_V:
             return VERTEX
-        if first == ord("f"):
+        if first == LETTER_F:
             return FACE
-        return OTHER if first in (ord("o"), ord("g"), ord("s")) else NONE
-    if length == 2 and first == ord("v"):
+        return OTHER if first in (LETTER_O, LETTER_G, LETTER_S) else NONE
+    if length == 2 and first == LETTER_V:
         second = text[start + 1]
-        return UV if second == ord("t") else OTHER if second == ord("n") else NONE
+        return UV if second == LETTER_T else OTHER if second == LETTER_N else NONE
     if length == 6 and _is(text, start, b"usemtl"):
         return MATERIAL
     return LIBRARY if length == 6 and _is(text, start, b"mtllib") else NONE
@@ -166,7 +169,7 @@ def _read_row(text: ByteArray, at: int, row: FloatArray, least: int, absent: flo
     """Read the numbers of a line, as many as the row holds; return where it ends, −1 for an odd one."""
     count = 0
     at = _skip_blanks(text, at)
-    while at < len(text) and text[at] != 10 and text[at] != ord("#"):
+    while at < len(text) and text[at] != 10 and text[at] != HASH:
         value, at = _number(text, at)
         if at < 0:
             return -1
@@ -187,10 +190,10 @@ def _read_row(text: ByteArray, at: int, row: FloatArray, least: int, absent: flo
 def _read_face(text: ByteArray, at: int, lines: PlainLines) -> int:
     first = corner = lines.kinds[NONE]
     at = _skip_blanks(text, at)
-    while at < len(text) and text[at] != 10 and text[at] != ord("#"):
+    while at < len(text) and text[at] != 10 and text[at] != HASH:
         lines.corners[corner, 1] = 0
         lines.corners[corner, 0], at = _whole(text, at)
-        if at >= 0 and at < len(text) and text[at] == ord("/"):
+        if at >= 0 and at < len(text) and text[at] == SLASH:
             at = _read_rest(text, at + 1, lines.corners[corner])
         if at < 0 or (at < len(text) and text[at] != 32 and not 9 <= text[at] <= 13):
             return -1
@@ -210,13 +213,13 @@ def _read_face(text: ByteArray, at: int, lines: PlainLines) -> int:
 @compiled
 def _read_rest(text: ByteArray, at: int, corner: IntArray) -> int:
     """Read what stands after the first slash of a corner; the number of a normal is not looked at."""
-    if at < len(text) and text[at] != ord("/"):
+    if at < len(text) and text[at] != SLASH:
         corner[1], at = _whole(text, at)
         if corner[1] == 0:
             return -1
-    if at >= 0 and at < len(text) and text[at] == ord("/"):
+    if at >= 0 and at < len(text) and text[at] == SLASH:
         at += 1
-        while at < len(text) and (48 <= text[at] <= 57 or text[at] == ord("-")):
+        while at < len(text) and (48 <= text[at] <= 57 or text[at] == MINUS):
             at += 1
     return at
 
@@ -224,8 +227,8 @@ def _read_rest(text: ByteArray, at: int, corner: IntArray) -> int:
 @compiled
 def _whole(text: ByteArray, at: int) -> tuple[int, int]:
     """Read a whole number; return it and where it ends, −1 where there is none."""
-    negative = text[at] == ord("-")
-    start = at = at + (negative or text[at] == ord("+"))
+    negative = text[at] == MINUS
+    start = at = at + (negative or text[at] == PLUS)
     value = 0
     while at < len(text) and 48 <= text[at] <= 57 and at - start <= DIGITS:
         value = 10 * value + (text[at] - 48)
@@ -238,8 +241,8 @@ def _whole(text: ByteArray, at: int) -> tuple[int, int]:
 @compiled
 def _number(text: ByteArray, at: int) -> tuple[float, int]:
     """Read a decimal number; return it and where its word ends, −1 where it is not plain."""
-    negative = text[at] == ord("-")
-    at += negative or text[at] == ord("+")
+    negative = text[at] == MINUS
+    at += negative or text[at] == PLUS
     digits, exponent, n_digits, point = 0, 0, 0, False
     while at < len(text):
         byte = text[at]
@@ -249,14 +252,14 @@ def _number(text: ByteArray, at: int) -> tuple[float, int]:
             digits = 10 * digits + (byte - 48)
             n_digits += 1
             exponent -= point
-        elif byte == ord(".") and not point:
+        elif byte == POINT and not point:
             point = True
         else:
             break
         at += 1
     if n_digits == 0:
         return 0.0, -1
-    if at < len(text) and (text[at] == ord("e") or text[at] == ord("E")):
+    if at < len(text) and (text[at] == LETTER_E or text[at] == CAPITAL_E):
         if at + 1 >= len(text):
             return 0.0, -1
         more, at = _whole(text, at + 1)
