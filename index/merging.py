@@ -77,7 +77,7 @@ def _by_share(gaps: GapArray, layout: Layout) -> PositionArray:
     """Order numbers by their share in the distances, the greatest first, each block's first before all."""
     shares = np.abs(gaps).sum(axis=1, dtype=np.int64)
     for start, end in pairwise(layout.edges.tolist()):
-        shares[start + np.argmax(shares[start:end])] += len(shares) * ONE * gaps.shape[1]
+        shares[start + np.argmax(shares[start:end])] += len(shares) * ONE * max(1, gaps.shape[1])
     return np.argsort(-shares, kind="stable")
 
 
