@@ -4,6 +4,7 @@ import numpy as np
 import numpy.typing as npt
 
 from index.methods import METHODS, Method
+from index.packing import PACKINGS
 from index.searcher import Searcher
 from tests.catalogues import Opened, add_ready
 
@@ -32,12 +33,28 @@ def add(opened: Opened, number: int) -> str:
     return shape_id
 
 
+def levels(name: str, block: npt.NDArray[np.float32]) -> npt.NDArray[np.int64]:
+    """Return a block in whole units, as its bytes stand for them."""
+    packing = PACKINGS[name]
+    codes = packing.pack(block).astype(np.int64)
+    return codes**2 if packing.squared else codes
+
+
+def block_gap(name: str, one: Blocks, other: Blocks, packed: bool) -> tuple[float, float]:
+    """Return the L1 distance of two blocks in units, and the unit."""
+    if packed:
+        return float(np.abs(levels(name, one[name]) - levels(name, other[name])).sum()), PACKINGS[name].unit
+    return float(np.abs(one[name].astype(float) - other[name].astype(float)).sum()), 1.0
+
+
 def distance(method: Method, one: Blocks, other: Blocks) -> float:
-    return sum(
-        block.weight
-        * float(np.abs(one[block.name].astype(float) - other[block.name].astype(float)).sum()) ** block.power
-        for block in method.blocks
-    )
+    """Compare two shapes as the service does: as bytes, where all of a method's blocks are packed."""
+    packed = all(block.name in PACKINGS for block in method.blocks)
+    total = 0.0
+    for block in method.blocks:
+        gap, unit = block_gap(block.name, one, other, packed)
+        total += block.weight * unit**block.power * gap**block.power
+    return total
 
 
 def brute_force(opened: Opened, method: Method, query: Blocks, limit: int) -> Ranked:

@@ -1,64 +1,76 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from index.errors import BadBlock
 from index.layout import Layout
-from index.methods import METHODS, Block, Method, with_weights
+from index.methods import METHODS, with_weights
+from index.packing import PACKINGS
+from tests.layouts import make_method, single_layout
 
-FUSED = Layout(method=METHODS["fused"], lengths=(64, 1600, 144))
-
-
-def make_layout(power: int) -> Layout:
-    blocks = (Block(name="a", weight=0.25, power=power), Block(name="b", weight=4.0, power=power))
-    return Layout(method=Method(name="m", blocks=blocks, description=""), lengths=(1, 2))
+LENGTHS = {"log-hks": 6, "colour-histogram": 9, "colour-curves": 4}
+FUSED = Layout(method=METHODS["fused"], lengths=tuple(LENGTHS.values()))
 
 
 def test_blocks_lie_side_by_side_in_the_order_of_the_method() -> None:
-    blocks = {
-        name: np.full(length, number, dtype=np.float32)
-        for number, (name, length) in enumerate(
-            [("colour-curves", 144), ("colour-histogram", 1600), ("log-hks", 64), ("other", 5)]
-        )
-    }
+    layout = single_layout(1, (3, 2))
+    blocks = {"b1": np.array([4, 5]), "other": np.ones(7), "b0": np.array([1, 2, 3])}
+    row = layout.join(blocks)
+    assert row.dtype == np.float32
+    assert row.tolist() == [1.0, 2.0, 3.0, 4.0, 5.0]
+    assert layout.edges.tolist() == [0, 3, 5]
+    assert layout.width == 5
+
+
+def test_packed_blocks_lie_there_as_their_bytes() -> None:
+    generator = np.random.default_rng(0)
+    blocks = {name: generator.random(length, dtype=np.float32) for name, length in LENGTHS.items()}
     assert Layout.of(METHODS["fused"], blocks) == FUSED
     row = FUSED.join(blocks)
-    assert [row[place].tolist() for place in FUSED.slices] == [[2.0] * 64, [1.0] * 1600, [0.0] * 144]
+    assert row.dtype == np.uint8
+    expected = [PACKINGS[name].pack(block) for name, block in blocks.items()]
+    np.testing.assert_array_equal(row, np.concatenate(expected))
 
 
-def test_the_widest_block_is_not_scaled_and_only_the_others_are_rounded() -> None:
-    places = FUSED.slices
-    assert set(FUSED.scales[places[1]].tolist()) == {1.0}
-    assert FUSED.scales[places[0]][0] == np.float32(1.87 / 0.587)
-    assert FUSED.rounded.tolist() == [*range(64), *range(1664, 1808)]
+def test_one_block_of_single_numbers_makes_the_whole_row_one_of_single_numbers() -> None:
+    layout = Layout(method=make_method(1, [1.0, 2.0], ["log-hks", "hks-0"]), lengths=(2, 1))
+    assert layout.packings is None
+    row = layout.join({"log-hks": [0.1, 0.2], "hks-0": [3.0]})
+    np.testing.assert_array_equal(row, np.array([0.1, 0.2, 3.0], np.float32))  # nothing is rounded
+    assert layout.units.tolist() == [1.0, 1.0]
+    assert not layout.squared.any()
 
 
-@pytest.mark.parametrize(("power", "by_hand"), [(1, [8.5, 4.25]), (2, [17.0, 4.25])])
-def test_distances_are_weighted_powers_of_the_blocks_distances(power: int, by_hand: list[float]) -> None:
-    layout = make_layout(power)
-    rows = np.array([[3, 2, -1], [0, 1, 1]], dtype=np.float32)  # from the query: 2 and 2, 1 and 1
-    query = np.array([1, 1, 0], dtype=np.float32)
-    assert layout.distances(rows, query, layout.method).tolist() == by_hand
-    own = with_weights(layout.method, {"b": 0.0})
-    assert layout.distances(rows, query, own).tolist() == [0.25 * 2**power, 0.25]
+@pytest.mark.parametrize("power", [1, 2])
+def test_weights_bring_sums_of_whole_units_to_the_distance(power: int) -> None:
+    blocks = [replace(block, power=power) for block in METHODS["fused"].blocks]
+    method = replace(METHODS["fused"], blocks=tuple(blocks))
+    own = with_weights(method, {"log-hks": 0.0, "colour-curves": 2.0})
+    layout = Layout(method=method, lengths=FUSED.lengths)
+    units = (1 / 255**2, 1 / 255**2, 1 / 13)
+    by_hand = [weight * unit**power for weight, unit in zip((0.0, 1 / 1.83, 2.0), units, strict=True)]
+    np.testing.assert_allclose(layout.weights(own), by_hand, rtol=1e-15)
+    assert layout.squared.tolist() == [True, True, False]
 
 
-def test_a_rows_distance_does_not_depend_on_the_rows_beside_it() -> None:
-    rows = np.random.default_rng(0).random((300, FUSED.width), dtype=np.float32)
-    together = FUSED.distances(rows, rows[0], FUSED.method)
-    alone = [float(FUSED.distances(row[None], rows[0], FUSED.method)[0]) for row in rows]
-    assert together.tolist() == alone
-    assert FUSED.distances(rows[::7], rows[0], FUSED.method).tolist() == alone[::7]
+def test_a_row_is_written_into_the_memory_that_is_given() -> None:
+    layout = single_layout(1, (1, 2))
+    rows = np.zeros((2, 3), np.float32)
+    layout.join({"b0": [1.0], "b1": [2.0, 3.0]}, out=rows[1])
+    assert rows.tolist() == [[0.0, 0.0, 0.0], [1.0, 2.0, 3.0]]
 
 
 @pytest.mark.parametrize(
     ("blocks", "words"),
     [
-        ({"a": [1.0]}, "needs the block 'b'"),
-        ({"a": [1.0], "b": [1.0]}, "2 finite numbers"),
-        ({"a": [[1.0]], "b": [1.0, 2.0]}, "1 finite numbers"),
-        ({"a": [1.0], "b": [1.0, np.inf]}, "2 finite numbers"),
+        ({"b0": [1.0]}, "needs the block 'b1'"),
+        ({"b0": [1.0], "b1": [1.0]}, "2 finite numbers"),
+        ({"b0": [[1.0]], "b1": [1.0, 2.0]}, "1 finite numbers"),
+        ({"b0": [1.0], "b1": [1.0, np.inf]}, "2 finite numbers"),
+        ({"b0": [1.0], "b1": [1.0, np.nan]}, "2 finite numbers"),
     ],
 )
 def test_blocks_that_do_not_fit_are_named(blocks: dict[str, list[float]], words: str) -> None:
     with pytest.raises(BadBlock, match=words):
-        make_layout(1).join(blocks)
+        single_layout(1, (1, 2)).join(blocks)
