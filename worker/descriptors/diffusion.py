@@ -11,8 +11,8 @@ import numpy as np
 from worker.arrays import FloatArray, IntArray, SingleArray
 from worker.compiled import compiled
 
-SHARPNESS = 13  # binary digits of a distance, after the first, that its bin of the histogram tells
-OCTAVES = 30  # of distances that the bins cover; shorter ones count as 0
+SHARPNESS = 14  # binary digits of a distance, after the first, that its bin of the histogram tells
+OCTAVES = 36  # of distances that the bins cover; shorter ones count as 0
 FINE_BINS = OCTAVES << SHARPNESS
 ROWS = 64  # of a block
 FADED = 1e-4  # decay, relative to the slowest, from which a function is lost in single numbers

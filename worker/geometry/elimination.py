@@ -22,7 +22,7 @@ def panel_width(size: int) -> int:
 
 @compiled
 def eliminate(
-    front: FloatArray, width: int, least: float, blocks: FloatArray, offset: int, work: FloatArray
+    front: FloatArray, width: int, least: FloatArray, blocks: FloatArray, offset: int, work: FloatArray
 ) -> tuple[int, int]:
     """Eliminate the first rows of a front (its upper triangle), in place, and keep their blocks.
 
@@ -43,7 +43,7 @@ def eliminate(
         for i in range(n_own):
             for j in range(i, n_own):
                 inverse[i, j] = inverse[j, i] = front[first + i, first + j]
-        found = _invert(inverse, least)
+        found = _invert(inverse, least[first:last])
         if found < 0:
             return -1, offset
         negative += found
@@ -85,8 +85,8 @@ def _subtract(rest: FloatArray, product: FloatArray, panel: FloatArray, work: Fl
 
 
 @compiled
-def _invert(matrix: FloatArray, least: float) -> int:
-    """Invert a symmetric matrix in place; return how many pivots are negative, −1 where one is small.
+def _invert(matrix: FloatArray, least: FloatArray) -> int:
+    """Invert a symmetric matrix in place; return how many pivots are negative, −1 where one is 0.
 
     Gauss-Jordan elimination, the largest entry of the diagonal first.
     """
@@ -98,7 +98,7 @@ def _invert(matrix: FloatArray, least: float) -> int:
             if not done[i] and (k < 0 or abs(matrix[i, i]) > abs(matrix[k, k])):
                 k = i
         pivot = matrix[k, k]
-        if not abs(pivot) > least:
+        if not abs(pivot) > least[k]:
             return -1
         done[k] = True
         negative += pivot < 0

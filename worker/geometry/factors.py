@@ -13,7 +13,7 @@ from worker.compiled import compiled
 from worker.geometry.elimination import STRIP, WIDE, eliminate, panel_width
 from worker.geometry.fronts import Fronts
 
-TINY = 1e-13  # a pivot relative to the largest entry of the diagonal, below which it counts as 0
+TINY = 1e-13  # a pivot relative to what stood in its place at first, below which it counts as 0
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -115,7 +115,7 @@ def _factorised(  # noqa: C901 - compiled: one loop, plainly
     local = np.empty(len(order), np.int64)
     stack, used, n_waiting = np.empty(1 << 16), 0, 0
     waiting = np.empty(n_groups, np.int64)
-    least = TINY * np.abs(diagonal).max()
+    least = TINY * np.abs(diagonal[order])  # of the pivot at each place
     offset, negative = 0, 0
     for group in range(n_groups):
         begin, end, size = groups[group], groups[group + 1], sizes[group]
@@ -145,7 +145,7 @@ def _factorised(  # noqa: C901 - compiled: one loop, plainly
                 row = front[own[i]]
                 for j in range(i, n_rest):
                     row[own[j]] += stack[used + i * n_rest + j]
-        found, offset = eliminate(front, width, least, blocks, offset, work)
+        found, offset = eliminate(front, width, least[begin:end], blocks, offset, work)
         if found < 0:
             return -1
         negative += found

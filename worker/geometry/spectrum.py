@@ -149,7 +149,7 @@ def count_below(system: System, value: float) -> int:
         ``unsolved`` where no factorisation without row exchanges was found close to the value.
     """
     for nudge in range(NUDGES):
-        factors = system.factorise(value * (1.0 - 1e-10 * nudge))
+        factors = system.factorise(value * (1.0 - 1e-10 * (8.0**nudge - 1.0)))
         if factors is not None:
             return factors.negative
     raise MeshError(Code.UNSOLVED, "The number of the shape's vibration modes could not be proven.")
