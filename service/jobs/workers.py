@@ -123,6 +123,7 @@ class Worker:
             if job is None:
                 return
             self._submit(job, tries=1)
+            self._heartbeat()  # an executor may take its time
 
     def _submit(self, job: Job, tries: int) -> None:
         library = self._library
