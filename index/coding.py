@@ -60,10 +60,11 @@ class Coding:
 
     @property
     def counts(self) -> DoubleArray:
-        """What a step of each group counts in the method's own distance, to the power 1/p; (g,)."""
+        """What a step of each group counts in the method's own distance, relative to the most; (g,)."""
         method = self.layout.method
         worth = self.layout.weights(method) ** (1.0 / method.power)
-        return np.asarray(self.steps * worth[self.merges.blocks])
+        counts = self.steps * worth[self.merges.blocks]
+        return np.asarray(counts / counts.max())
 
     def ends(self, query: RowArray, largest: float) -> tuple[ByteArray, ByteArray]:
         """Return below and above, (g,) each: a row of code c is at least c − above and below − c steps away.
