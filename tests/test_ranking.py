@@ -1,205 +1,213 @@
-from collections.abc import Collection
-from fractions import Fraction
+from collections.abc import Collection, Iterator
+from itertools import pairwise
+from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from index import coding, ranking, sketch, vectors
+from index.arrays import DoubleArray, PositionArray, RowArray
+from index.distances import distances, levels_of
 from index.layout import Layout
-from index.methods import Block, Method, with_weights
-from index.ranking import Ranked, certain_radius, rank
+from index.methods import Method, with_weights
+from index.ranking import Ranked, rank
 from index.vectors import Vectors
+from tests.layouts import byte_layout, clustered_rows, random_rows, single_layout
 
-Rows = npt.NDArray[np.float32]
-
-
-def make_method(power: int, weights: Collection[float]) -> Method:
-    blocks = tuple(Block(name=f"b{i}", weight=weight, power=power) for i, weight in enumerate(weights))
-    return Method(name="m", blocks=blocks, description="")
-
-
-def filled(layout: Layout, ids: list[str], rows: Rows) -> Vectors:
-    vectors = Vectors(layout)
-    vectors.put(ids, rows)
-    return vectors
+LAYOUTS = [
+    byte_layout(1, (3, 9, 5)),
+    byte_layout(2, (4, 6)),
+    single_layout(1, (6, 8, 3)),
+    single_layout(2, (3, 9, 5)),
+    single_layout(2, (12,)),
+]
+seeds = st.integers(0, 2**32 - 1)
+layouts = st.sampled_from(LAYOUTS)
 
 
-def brute_force(
-    layout: Layout,
-    ids: list[str],
-    rows: Rows,
-    query: Rows,
-    limit: int,
-    exclude: Collection[str] = (),
-    method: Method | None = None,
+@pytest.fixture(autouse=True, scope="module")
+def small() -> Iterator[None]:
+    """Let small libraries have sketches, of small boxes and few groups."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(vectors, "SKETCHED", 20)
+        patch.setattr(sketch, "BOX", 8)
+        patch.setattr(sketch, "SEEDS", 3)
+        patch.setattr(sketch, "FIRST", 4)
+        patch.setattr(coding, "FEWEST", 7)
+        patch.setattr(coding, "MERGED", 2)
+        patch.setattr(ranking, "FIRST", 2)
+        patch.setattr(ranking, "SECOND", 3)
+        yield
+
+
+def filled(layout: Layout, rows: RowArray, seed: int = 0, late: int = 0) -> Vectors:
+    """Return rows under ids in random order, the last of them after the order was made."""
+    ids = [f"{number:05}" for number in np.random.default_rng(seed).permutation(len(rows))]
+    made = Vectors(layout)
+    for start, end in pairwise([0, len(rows) - late, len(rows)]):
+        made.put(ids[start:end], rows[start:end])
+        if not start:
+            made.settle()
+    return made
+
+
+def by_comparing_all(
+    found: Vectors, query: RowArray, limit: int, exclude: Collection[str] = (), method: Method | None = None
 ) -> Ranked:
-    """Compare with every row, in plain double precision, block by block and number by number."""
-    answer = []
-    for shape_id, row in zip(ids, rows, strict=True):
-        total, start = 0.0, 0
-        for block, length in zip((method or layout.method).blocks, layout.lengths, strict=True):
-            gaps = [abs(float(row[i]) - float(query[i])) for i in range(start, start + length)]
-            total += block.weight * sum(gaps) ** block.power
-            start += length
-        if shape_id not in exclude:
-            answer.append((total, shape_id))
-    return [(shape_id, distance) for distance, shape_id in sorted(answer)[:limit]]
+    of_all = distances(found.rows, found.here, query, found.layout, method or found.layout.method).tolist()
+    ids = [found.ids[position] for position in found.here]
+    answer = sorted((d, shape_id) for d, shape_id in zip(of_all, ids, strict=True) if shape_id not in exclude)
+    return [(shape_id, d) for d, shape_id in answer[: max(limit, 0)]]
 
 
-@st.composite
-def libraries(draw: st.DrawFn) -> tuple[Layout, list[str], Rows, Rows]:
-    """Draw layouts, ids and rows of small multiples of 1/8: sums are exact, and many distances equal."""
-    power = draw(st.sampled_from([1, 2]))
-    lengths = tuple(draw(st.lists(st.integers(1, 4), min_size=1, max_size=3)))
-    weight = st.sampled_from([1.0, 0.05, 0.1, 1 / 0.587, 1 / 150.5, 3.0])
-    weights = [draw(weight) for _ in lengths]
-    layout = Layout(method=make_method(power, weights), lengths=lengths)
-    n_rows = draw(st.integers(1, 400))
-    n_different = draw(st.integers(1, 12))
-    generator = np.random.default_rng(draw(st.integers(0, 2**32)))
-    different = generator.integers(-8, 9, (n_different, layout.width)).astype(np.float32) / np.float32(8)
-    rows = different[generator.integers(0, n_different, n_rows)]
-    ids = [f"{number:04}" for number in generator.permutation(n_rows)]
-    query = generator.integers(-8, 9, layout.width).astype(np.float32) / np.float32(8)
-    return layout, ids, rows, query
-
-
-@given(library=libraries(), limit=st.integers(0, 420), seed=st.integers(0, 99))
-@settings(max_examples=300)
-def test_the_certified_answer_is_that_of_brute_force_ties_included(
-    library: tuple[Layout, list[str], Rows, Rows], limit: int, seed: int
-) -> None:
-    layout, ids, rows, query = library
-    generator = np.random.default_rng(seed)
-    exclude = set(generator.choice([*ids, "unknown"], generator.integers(0, len(ids) + 1)))
-    expected = brute_force(layout, ids, rows, query, limit, exclude)
-    assert rank(filled(layout, ids, rows), query, limit, exclude) == expected
-
-
-@given(library=libraries(), limit=st.integers(1, 50), data=st.data())
-def test_own_weights_give_the_answer_of_brute_force(
-    library: tuple[Layout, list[str], Rows, Rows], limit: int, data: st.DataObject
-) -> None:
-    layout, ids, rows, query = library
-    weights = {block.name: data.draw(st.sampled_from([0.0, 0.5, 1.0, 7.0])) for block in layout.method.blocks}
-    if not any(weights.values()):
-        weights["b0"] = 1.0
-    method = with_weights(layout.method, weights)
-    expected = brute_force(layout, ids, rows, query, limit, method=method)
-    assert rank(filled(layout, ids, rows), query, limit, method=method) == expected
-
-
-@given(
-    seed=st.integers(0, 2**32),
-    power=st.sampled_from([1, 2]),
-    scale=st.sampled_from([1e-42, 1e-30, 1e-3, 1.0, 1e10, 1e30, 3e38]),
-    offset=st.sampled_from([0.0, 1.0]),
-)
-@settings(max_examples=120)
-def test_numbers_of_any_size_rank_as_comparing_all_does(
-    seed: int, power: int, scale: float, offset: float
-) -> None:
-    generator = np.random.default_rng(seed)
-    layout = Layout(method=make_method(power, [1.7, 0.05, 0.3]), lengths=(7, 40, 19))
-    spread = generator.choice([1.0, 1e-7])
-    values = (offset + spread * generator.random((500, layout.width))) / (1 + offset) * scale
-    rows = values.astype(np.float32)
-    ids = [f"{number:03}" for number in range(500)]
-    vectors = filled(layout, ids, rows)
-    distances = layout.distances(vectors.rows(np.arange(500)), rows[0], layout.method)
-    expected = sorted(zip(distances.tolist(), ids, strict=True))[:9]
-    assert rank(vectors, rows[0], 9) == [(shape_id, distance) for distance, shape_id in expected]
-
-
-def crossed() -> tuple[Layout, list[str], Rows, Rows]:
-    """Return a library in which plain L1 finds the wrong shapes, as bad as the squares allow.
-
-    From the origin, "spread" has 1 in each of three blocks: s = 3, d = 3. The decoys have 2.9 in
-    one block alone: s = 2.9, d = 8.41. There are more decoys than candidates.
-    """
-    layout = Layout(method=make_method(2, [1.0, 1.0, 1.0]), lengths=(1, 1, 1))
-    decoys = np.zeros((500, 3), dtype=np.float32)
-    decoys[np.arange(500), np.arange(500) % 3] = 2.9
-    rows = np.vstack([decoys, np.ones((2, 3), dtype=np.float32)])
-    return (
-        layout,
-        [*(f"decoy {number:03}" for number in range(500)), "spread b", "spread a"],
-        rows,
-        np.zeros(3, dtype=np.float32),
-    )
-
-
-def test_wrong_candidates_are_noticed_and_the_search_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
-    layout, ids, rows, query = crossed()
-    vectors = filled(layout, ids, rows)
-    candidates, _ = vectors.nearest(query, 40)
-    assert not {500, 501} & set(candidates.tolist())  # plain L1 does not see them
-    asked: list[float] = []
-    within = Vectors.within
-
-    def watched(self: Vectors, query: Rows, radius: float) -> npt.NDArray[np.int64]:
-        asked.append(radius)
-        return within(self, query, radius)
-
-    monkeypatch.setattr(Vectors, "within", watched)
-    assert rank(vectors, query, 2) == [("spread a", 3.0), ("spread b", 3.0)]
-    assert len(asked) == 1
-
-
-def test_clear_cases_are_certified_by_the_candidates_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    layout = Layout(method=make_method(1, [1 / 0.587, 1 / 1.87, 1 / 150.5]), lengths=(64, 1600, 144))
-    rows = np.random.default_rng(0).random((2000, layout.width), dtype=np.float32)
-    near = np.linspace(0, 0.05, 20, dtype=np.float32)[:, None]
-    rows[:20] = rows[0] + near
-    ids = [f"{number:04}" for number in range(2000)]
-    vectors = filled(layout, ids, rows)
-
-    def forbidden(*_: object) -> None:
-        raise AssertionError("the candidates were enough")
-
-    monkeypatch.setattr(Vectors, "within", forbidden)
-    answer = rank(vectors, rows[0], 10)
-    assert [shape_id for shape_id, _ in answer] == ids[:10]
-
-
-def test_ties_across_the_border_of_the_candidates_are_ordered_by_id() -> None:
-    layout = Layout(method=make_method(1, [1.0]), lengths=(2,))
-    ids = [f"{number:04}" for number in range(3000)]
-    ids.reverse()
-    vectors = filled(layout, ids, np.ones((3000, 2), dtype=np.float32))
-    answer = rank(vectors, np.zeros(2, dtype=np.float32), 5)
-    assert answer == [(f"{number:04}", 2.0) for number in range(5)]
-
-
-def test_the_radius_holds_in_exact_arithmetic() -> None:
-    generator = np.random.default_rng(5)
-    for power in (1, 2):
-        layout = Layout(method=make_method(power, [0.05, 1 / 0.587, 0.3]), lengths=(5, 60, 30))
-        rows = (100_000 + generator.random((300, layout.width))).astype(np.float32)
-        vectors = filled(layout, [str(i) for i in range(300)], rows)
-        query = rows[0]
-        norms = float(np.abs(vectors.scaled(query)).sum()) + vectors.largest_norm
-        positions, sums = vectors.nearest(query, 300)
-        for position, s in zip(positions, sums, strict=True):
-            exact = exact_distance(layout, rows[position], query)
-            assert float(s) <= certain_radius(layout, float(exact), norms)
-
-
-def exact_distance(layout: Layout, row: Rows, query: Rows) -> Fraction:
-    total = Fraction(0)
-    for block, place in zip(layout.method.blocks, layout.slices, strict=True):
-        pairs = zip(row[place].tolist(), query[place].tolist(), strict=True)
-        gap = sum((abs(Fraction(x) - Fraction(y)) for x, y in pairs), Fraction(0))
-        total += Fraction(block.weight) * gap**block.power
+def slow_distance(layout: Layout, row: RowArray, query: RowArray) -> float:
+    """Compare number by number, block by block: exact where sums have no rounding."""
+    gaps = np.abs(levels_of(row[None], layout) - levels_of(query[None], layout))[0]
+    total = 0.0
+    for weight, (start, end) in zip(layout.weights(layout.method), pairwise(layout.edges), strict=True):
+        total += float(weight) * float(sum(gaps[start:end].tolist())) ** layout.method.power
     return total
 
 
-def test_nothing_is_asked_of_an_empty_or_wholly_excluded_library() -> None:
-    layout = Layout(method=make_method(1, [1.0]), lengths=(1,))
-    query = np.zeros(1, dtype=np.float32)
+def few_different(layout: Layout, n_rows: int, n_different: int, seed: int) -> RowArray:
+    """Return rows of which many are equal, and whose distances often are."""
+    generator = np.random.default_rng(seed)
+    different = generator.integers(0, 3, (n_different, layout.width)).astype(layout.dtype)
+    return different[generator.integers(0, n_different, n_rows)]
+
+
+@given(
+    layout=layouts,
+    n_rows=st.integers(1, 300),
+    n_different=st.integers(1, 40),
+    limit=st.integers(-1, 320),
+    seed=seeds,
+)
+@settings(max_examples=200)
+def test_the_certified_answer_is_that_of_brute_force_ties_and_exclusions_included(
+    layout: Layout, n_rows: int, n_different: int, limit: int, seed: int
+) -> None:
+    generator = np.random.default_rng(seed)
+    found = filled(layout, few_different(layout, n_rows, n_different, seed), seed)
+    query = few_different(layout, 1, 1, seed + 1)[0]
+    exclude = set(generator.choice([*found.ids, "unknown"], generator.integers(0, n_rows + 1)).tolist())
+    slow = [
+        (slow_distance(layout, row, query), shape_id)
+        for row, shape_id in zip(found.rows, found.ids, strict=True)
+        if shape_id not in exclude
+    ]
+    expected = [(shape_id, d) for d, shape_id in sorted(slow)[: max(limit, 0)]]
+    assert rank(found, query, limit, exclude) == expected
+
+
+@given(layout=layouts, seed=seeds, limit=st.sampled_from([1, 3, 10, 100]), late=st.integers(0, 60))
+@settings(max_examples=100)
+def test_removed_rows_are_not_found_and_late_ones_are(
+    layout: Layout, seed: int, limit: int, late: int
+) -> None:
+    rows = clustered_rows(layout, 240, 6, seed)
+    found = filled(layout, rows, seed, late)
+    assert found.sketch is not None
+    found.remove(np.random.default_rng(seed).choice(list(found.ids), 80, replace=False).tolist())
+    for query in (rows[0], rows[-1], random_rows(layout, 1, seed)[0]):
+        assert rank(found, query, limit) == by_comparing_all(found, query, limit)
+
+
+@given(layout=layouts, seed=seeds, data=st.data(), limit=st.integers(1, 40))
+@settings(max_examples=150)
+def test_own_weights_give_the_answer_of_brute_force(
+    layout: Layout, seed: int, data: st.DataObject, limit: int
+) -> None:
+    weight = st.sampled_from([0.0, 1e-9, 0.5, 1.0, 7.0, 1e9])
+    own = {block.name: data.draw(weight) for block in layout.method.blocks}
+    if not any(own.values()):
+        own[layout.method.blocks[-1].name] = 1.0
+    method = with_weights(layout.method, own)
+    found = filled(layout, clustered_rows(layout, 250, 5, seed), seed)
+    query = found.rows[seed % 250]
+    assert rank(found, query, limit, method=method) == by_comparing_all(found, query, limit, method=method)
+
+
+@given(
+    seed=seeds,
+    power=st.sampled_from([1, 2]),
+    scale=st.sampled_from([1e-42, 1e-38, 1e-30, 1e-20, 1e-3, 1.0, 1e10, 1e19, 1e30, 3e38]),
+    offset=st.sampled_from([0.0, 1.0]),
+    spread=st.sampled_from([1.0, 1e-4, 1e-7]),
+)
+@settings(max_examples=150)
+def test_numbers_of_any_size_rank_as_comparing_all_does(
+    seed: int, power: int, scale: float, offset: float, spread: float
+) -> None:
+    layout = single_layout(power, (4, 20, 9))
+    generator = np.random.default_rng(seed)
+    middles = generator.random((4, layout.width))[generator.integers(0, 4, 300)]
+    values = middles + generator.choice([0.01, 1.0]) * generator.normal(size=middles.shape)
+    rows = ((offset + spread * values.clip(-3, 3) / 3) / (offset + spread) * scale).astype(np.float32)
+    found = filled(layout, rows, seed)
+    assert found.sketch is not None
+    for query in (rows[0], -rows[1], rows[2] * np.float32(1e-3)):
+        assert rank(found, query, 9) == by_comparing_all(found, query, 9)
+
+
+@pytest.mark.parametrize("power", [1, 2])
+def test_blocks_of_very_different_size_rank_as_comparing_all_does(power: int) -> None:
+    layout = single_layout(power, (5, 5, 5))
+    sizes = np.repeat([1e-40, 1.0, 1e38], 5)
+    rows = (np.random.default_rng(0).normal(size=(300, 15)).clip(-3, 3) * sizes).astype(np.float32)
+    rows[:150, 10:] = rows[0, 10:]  # so that for many the largest block does not decide
+    rows[:70, 5:] = rows[0, 5:]
+    found = filled(layout, rows)
+    for query in (rows[0], rows[100], rows[200]):
+        for limit in (5, 60, 100, 200):
+            assert rank(found, query, limit) == by_comparing_all(found, query, limit)
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_equal_rows_are_ordered_by_id(layout: Layout) -> None:
+    rows = np.repeat(random_rows(layout, 1), 1000, axis=0)
+    found = filled(layout, rows)
+    assert found.sketch is not None
+    expected = [(f"{number:05}", 0.0) for number in range(5)]
+    assert rank(found, rows[0], 5) == expected
+
+
+@pytest.mark.parametrize("limit", [0, 1, 59, 60, 61, 10_000])
+def test_any_limit_is_kept(limit: int) -> None:
+    found = filled(LAYOUTS[0], random_rows(LAYOUTS[0], 60))
+    answer = rank(found, random_rows(LAYOUTS[0], 1, 1)[0], limit)
+    assert len(answer) == min(limit, 60)
+
+
+def test_nothing_is_found_in_an_empty_or_wholly_excluded_library() -> None:
+    layout = single_layout(1, (1,))
+    query = np.zeros(1, np.float32)
     assert rank(Vectors(layout), query, 5) == []
-    vectors = filled(layout, ["a", "b"], np.ones((2, 1), dtype=np.float32))
-    assert rank(vectors, query, 5, exclude=["a", "b", "c"]) == []
-    assert rank(vectors, query, 0) == rank(vectors, query, -1) == []
+    few = filled(layout, np.ones((2, 1), np.float32))
+    assert rank(few, query, 5, exclude=["00000", "00001", "c"]) == []
+    many = filled(layout, np.ones((30, 1), np.float32))
+    assert rank(many, query, 5, exclude=list(many.ids)) == []
+    many.remove(list(many.ids))
+    assert rank(many, query, 5) == []
+
+
+def test_of_a_clustered_library_few_rows_are_compared_exactly(monkeypatch: pytest.MonkeyPatch) -> None:
+    for module, name, value in [(sketch, "BOX", 64), (sketch, "SEEDS", 8), (sketch, "FIRST", 16)]:
+        monkeypatch.setattr(module, name, value)
+    monkeypatch.setattr(coding, "FEWEST", 32)
+    layout = byte_layout(1, (16, 60, 20))
+    rows = clustered_rows(layout, 20_000, 200)
+    found = filled(layout, rows)
+    compared: list[int] = []
+
+    def counted(rows: RowArray, positions: PositionArray, *told: Any) -> DoubleArray:
+        compared.append(len(positions))
+        return distances(rows, positions, *told)
+
+    monkeypatch.setattr(ranking, "distances", counted)
+    for query in rows[::2000]:
+        compared.clear()
+        assert rank(found, query, 10) == by_comparing_all(found, query, 10)
+        assert sum(compared) < 0.05 * len(rows)
