@@ -1,8 +1,10 @@
 """Bounds: at least how far boxes of rows, and the rows in them, are from a query.
 
-With codes c and a query between `below` and `above` (see `index.sketch`), a row is at least
+With codes c and a query between `below` and `above` (see `index.coding`), a row is at least
 max(c − above, below − c, 0) steps away in each group, and groups add up to Σ_b w_b (Σ_{g in b})^p.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -10,93 +12,55 @@ import numpy.typing as npt
 from index.arrays import ByteArray, PositionArray, SingleArray
 from index.compiled import compiled
 
-LOOK = 8  # groups after which rows are looked at
+StepArray = npt.NDArray[np.uint16]  # enough for 257 groups
+BoolArray = npt.NDArray[np.bool_]
+FEW = 16  # bounds looked at together
 
-StepArray = npt.NDArray[np.uint16]
+
+class Question(NamedTuple):
+    """A query in codes, and how they are weighed."""
+
+    below: ByteArray  # (g,)
+    above: ByteArray  # (g,)
+    weights: SingleArray  # (g,), of a sum of steps
+    ends: BoolArray  # (g,), whether steps are not added to the next group's: weighed otherwise, squared apart
+    power: int  # p
+
+    @classmethod
+    def of(
+        cls, below: ByteArray, above: ByteArray, blocks: PositionArray, weights: SingleArray, power: int
+    ) -> "Question":
+        """Return the question of a query between below and above, in groups of some blocks; (g,) each."""
+        others = (blocks[:-1] != blocks[1:]) & ((power != 1) | (weights[:-1] != weights[1:]))
+        return cls(below=below, above=above, weights=weights, ends=np.append(others, True), power=power)
 
 
 @compiled
-def box_bounds(
-    lows: ByteArray,
-    highs: ByteArray,
-    below: ByteArray,
-    above: ByteArray,
-    blocks: PositionArray,
-    weights: SingleArray,
-    power: int,
-    out: SingleArray,
-) -> None:
+def box_bounds(lows: ByteArray, highs: ByteArray, question: Question, out: SingleArray) -> None:
     """Bound the distance of every row in each box.
 
     Parameters
     ----------
     lows, highs : (g, n) arrays
         Least and greatest code of each box.
-    below, above : (g,) arrays
-        Of the query.
-    blocks : (g,) array
-        The block of each group.
-    weights : (g,) array
-        Its weight, for sums in steps.
-    power : int
-        p.
+    question : Question
     out : (n,) array
     """
+    below, above, weights, ends, power = question
     steps = np.zeros(lows.shape[1], np.uint16)
     out[:] = np.float32(0)
     for g in range(len(lows)):
         _add_box_steps(lows[g], highs[g], below[g], above[g], steps)
-        if _ends_sum(g, blocks, weights, power):
+        if ends[g]:
             _add_power(steps, weights[g], power, out)
             steps[:] = np.uint16(0)
 
 
 @compiled
-def least_bounds(
-    codes: ByteArray,
-    boxes: PositionArray,
-    below: ByteArray,
-    above: ByteArray,
-    blocks: PositionArray,
-    weights: SingleArray,
-    power: int,
-    out: SingleArray,
+def coarse_bounds(
+    codes: ByteArray, boxes: PositionArray, question: Question, out: SingleArray, least: SingleArray
 ) -> None:
-    """Bound the distance of every row in some boxes, from the codes of the rows in the first groups.
-
-    Parameters
-    ----------
-    codes, boxes, below, above, blocks, weights, power
-        As for `row_bounds`; those of the groups for the first groups alone.
-    out : (m,) array
-    """
-    steps = np.empty(codes.shape[2], np.uint16)
-    for place in range(len(boxes)):
-        rows = codes[boxes[place]]
-        out[place] = np.float32(0)
-        steps[:] = np.uint16(0)
-        for g in range(len(below)):
-            _add_steps(rows[g], below[g], above[g], steps)
-            if _ends_sum(g, blocks, weights, power):
-                least = np.float32(_least(steps))
-                out[place] += weights[g] * (least if power == 1 else least * least)
-                steps[:] = np.uint16(0)
-
-
-@compiled
-def row_bounds(
-    codes: ByteArray,
-    boxes: PositionArray,
-    below: ByteArray,
-    above: ByteArray,
-    blocks: PositionArray,
-    weights: SingleArray,
-    power: int,
-    limit: SingleArray,
-    positions: PositionArray,
-    bounds: SingleArray,
-) -> int:
-    """Collect the rows of some boxes that may be within a limit.
+    """Bound the distance of each row in some boxes.
 
     Parameters
     ----------
@@ -104,73 +68,81 @@ def row_bounds(
         Of each box's rows.
     boxes : (m,) array
         Which boxes.
-    below, above, blocks, weights, power
-        As for `box_bounds`.
-    limit : (1,) array
-    positions : array
-        Room for the rows found: box · r + place in it, ascending where the boxes are.
-    bounds : array
-        Room for their bounds.
-
-    Returns
-    -------
-    int
-        How many were found.
+    question : Question
+    out : (m, r) array
+    least : (m,) array
+        A bound of all rows in a box: the least of `out`, or less.
     """
-    size = codes.shape[2]
-    steps, total = np.empty(size, np.uint16), np.empty(size, np.float32)
-    found = 0
-    for box in boxes:
-        if _bound_rows(codes[box], below, above, blocks, weights, power, limit, steps, total):
-            for r in range(size):
-                if total[r] <= limit[0]:
-                    positions[found] = box * size + r
-                    bounds[found] = total[r]
-                    found += 1
+    below, above, weights, ends, power = question
+    steps = np.empty(codes.shape[2], np.uint16)
+    out[:], least[:] = np.float32(0), np.float32(0)
+    for place in range(len(boxes)):
+        rows = codes[boxes[place]]
+        steps[:] = np.uint16(0)
+        for g in range(len(rows)):
+            _add_steps(rows[g], below[g], above[g], steps)
+            if ends[g]:
+                step = np.float32(_least(steps))
+                least[place] += weights[g] * (step if power == 1 else step * step)
+                _add_power(steps, weights[g], power, out[place])
+                steps[:] = np.uint16(0)
+
+
+@compiled
+def fine_bounds(codes: ByteArray, rows: PositionArray, question: Question, out: SingleArray) -> None:
+    """Bound the distance of some rows.
+
+    Parameters
+    ----------
+    codes : (n, g) array
+    rows : (m,) array
+        Which rows.
+    question : Question
+    out : (m,) array
+    """
+    below, above, weights, ends, power = question
+    sums = np.flatnonzero(ends) + 1  # where each sum ends
+    for place in range(len(rows)):
+        row = codes[rows[place]]
+        start, total = np.int64(0), np.float32(0)
+        for end in sums:
+            steps = np.float32(_steps_of(row[start:end], below[start:end], above[start:end]))
+            total += weights[start] * (steps if power == 1 else steps * steps)
+            start = end
+        out[place] = total
+
+
+@compiled
+def collect(bounds: SingleArray, places: PositionArray, limit: float, positions: PositionArray) -> int:
+    """Collect where in some rows of bounds (m, r) they are within a limit, as place · r + column."""
+    width, found = bounds.shape[1], 0
+    for place in places:
+        for start in range(0, width, FEW):
+            some = bounds[place, start : start + FEW]
+            if _count_within(some, np.float32(limit)):
+                for column in range(len(some)):
+                    if some[column] <= limit:
+                        positions[found] = place * width + start + column
+                        found += 1
     return found
 
 
 @compiled
-def _bound_rows(
-    codes: ByteArray,
-    below: ByteArray,
-    above: ByteArray,
-    blocks: PositionArray,
-    weights: SingleArray,
-    power: int,
-    limit: SingleArray,
-    steps: StepArray,
-    total: SingleArray,
-) -> bool:
-    """Bound the rows (g, r) of one box; False as soon as none of them can be within the limit."""
-    steps[:] = np.uint16(0)
-    total[:] = np.float32(0)
-    known = np.float32(0)  # of all rows at once
-    start = 0
-    while start < len(codes):
-        end = start + 1
-        while end < min(start + LOOK, len(codes)) and not _ends_sum(end - 1, blocks, weights, power):
-            end += 1
-        for g in range(start, end):
-            _add_steps(codes[g], below[g], above[g], steps)
-        least = np.float32(_least(steps))
-        most = known + weights[start] * (least if power == 1 else least * least)
-        if most > limit[0]:
-            return False
-        if _ends_sum(end - 1, blocks, weights, power):
-            known = most
-            _add_power(steps, weights[start], power, total)
-            steps[:] = np.uint16(0)
-        start = end
-    return _any_within(total, limit)
+def _count_within(bounds: SingleArray, limit: np.float32) -> int:
+    count = np.int32(0)
+    for i in range(len(bounds)):
+        count = np.int32(count + np.int32(bounds[i] <= limit))
+    return int(count)
 
 
 @compiled
-def _ends_sum(g: int, blocks: PositionArray, weights: SingleArray, power: int) -> bool:
-    """Tell whether steps of group g are not added to those of the next: weighed otherwise or squared apart."""
-    if g + 1 == len(blocks):
-        return True
-    return blocks[g] != blocks[g + 1] and (power != 1 or weights[g] != weights[g + 1])
+def _steps_of(codes: ByteArray, below: ByteArray, above: ByteArray) -> int:
+    total = np.int32(0)
+    for g in range(len(codes)):
+        over = np.uint8(codes[g] - above[g]) if codes[g] > above[g] else np.uint8(0)
+        under = np.uint8(below[g] - codes[g]) if below[g] > codes[g] else np.uint8(0)
+        total = np.int32(total + np.int32(over | under))
+    return int(total)
 
 
 # Differences of bytes that stop at 0, of which a processor takes 32 at a time.
@@ -198,16 +170,6 @@ def _least(steps: StepArray) -> np.uint16:
     for i in range(len(steps)):
         least = min(least, steps[i])
     return least
-
-
-@compiled
-def _any_within(total: SingleArray, limit: SingleArray) -> bool:
-    """Tell whether one of some numbers, not negative, is within a limit (1,); their bits have their order."""
-    bits, most = total.view(np.int32), limit.view(np.int32)[0]
-    least = np.int32(np.iinfo(np.int32).max)
-    for i in range(len(bits)):
-        least = min(least, bits[i])
-    return bool(least <= most)
 
 
 @compiled

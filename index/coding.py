@@ -1,16 +1,17 @@
 """Coding: one byte for each merged group of a row's numbers."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from index.arrays import ByteArray, DoubleArray, RowArray
 from index.distances import levels_of
 from index.layout import Layout
 from index.merging import Merges, learn_merges, merged
 
-FEWEST = 48  # groups of a row
-MERGED = 6  # numbers of a wide row to a group
 LEVELS = 256  # of a code
 SPREAD = 0.4  # of the widest group's range that its codes cover; what is beyond counts as the end
 OUTSIDE = 0.005  # share of rows at either side of that range
@@ -27,24 +28,37 @@ class Coding:
     """
 
     layout: Layout
-    merges: Merges  # those first that vary most; with p = 2 block by block
+    merges: Merges  # with p = 2 block by block
     origins: DoubleArray  # (g,)
     steps: DoubleArray  # (g,)
 
     @classmethod
-    def learn(cls, rows: RowArray, layout: Layout) -> "Coding":
-        """Learn merges and ranges from rows (n, width)."""
-        merges = learn_merges(rows, layout, min(layout.width, max(FEWEST, layout.width // MERGED)))
+    def learn(cls, rows: RowArray, layout: Layout, n_groups: int) -> "Coding":
+        """Learn merges into so many groups, and their ranges, from rows (n, width)."""
+        merges = learn_merges(rows, layout, n_groups)
         sample = merged(rows[:: max(1, len(rows) // PIECE)], layout, merges)
         low, high = np.quantile(sample, [OUTSIDE, 1 - OUTSIDE], axis=0)
         worth = layout.weights(layout.method) ** (1.0 / layout.method.power)  # (B,)
         steps = _steps((high - low) * worth[merges.blocks], merges, layout) / worth[merges.blocks]
-        spread = sample.std(axis=0) * worth[merges.blocks]
-        order = np.argsort(-spread, kind="stable")
+        order = np.arange(merges.count)
         if layout.method.power == 2:
-            order = order[np.argsort(merges.blocks[order], kind="stable")]
+            order = np.argsort(merges.blocks, kind="stable")
         origins = (low + high) / 2 - LEVELS / 2 * steps
         return cls(layout=layout, merges=merges.ordered(order), origins=origins[order], steps=steps[order])
+
+    def arrays(self, name: str) -> dict[str, npt.NDArray[Any]]:
+        """Return all that `restored` needs, under names of their own."""
+        merges = self.merges
+        parts = {"groups": merges.groups, "signs": merges.signs, "blocks": merges.blocks}
+        parts |= {"origins": self.origins, "steps": self.steps}
+        return {f"{name}-{part}": array for part, array in parts.items()}
+
+    @classmethod
+    def restored(cls, layout: Layout, arrays: Mapping[str, npt.NDArray[Any]], name: str) -> "Coding":
+        """Return the coding that gave these arrays under a name."""
+        merges = Merges(**{part: arrays[f"{name}-{part}"] for part in ("groups", "signs", "blocks")})
+        origins, steps = arrays[f"{name}-origins"], arrays[f"{name}-steps"]
+        return cls(layout=layout, merges=merges, origins=origins, steps=steps)
 
     def places(self, rows: RowArray) -> DoubleArray:
         """Return where rows lie in steps from the origins, (m, g)."""

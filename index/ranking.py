@@ -16,9 +16,10 @@ from collections.abc import Collection
 import numpy as np
 
 from index.arrays import DoubleArray, PositionArray, RowArray
+from index.candidates import MARGIN, Candidates
 from index.distances import distances
 from index.methods import Method
-from index.sketch import MARGIN, Sketch
+from index.sketch import Sketch
 from index.vectors import Vectors
 
 FIRST = 4  # times as many rows as are wanted give the first limit
@@ -77,11 +78,10 @@ class _Search:
         self.method = method
 
     def certified(self, sketch: Sketch) -> Ranked:
-        candidates = sketch.candidates(self.query, self.method, self.vectors.largest)
+        candidates = Candidates(sketch, self.query, self.method, self.vectors.largest)
         enough = self.wanted + self.hidden.size
         limit = self.limit(candidates.by_centres(FIRST * enough))
-        candidates.look_at_rows(limit)
-        limit = min(limit, self.limit(candidates.by_bounds(FIRST * enough)))
+        limit = min(limit, self.limit(candidates.by_rows(limit, FIRST * enough)))
         positions, bounds = candidates.within(limit)
         if len(positions) > 2 * SECOND * enough:
             least = np.argpartition(bounds, SECOND * enough)[: SECOND * enough]

@@ -7,7 +7,6 @@ import numpy as np
 import numpy.typing as npt
 
 from index.arrays import PositionArray, RowArray
-from index.coding import Coding
 from index.distances import levels_of
 from index.layout import Layout
 from index.reordering import reorder
@@ -95,8 +94,7 @@ class Vectors:
         if len(self) >= SKETCHED and len(self._ids) - self._ordered + removed > STALE * len(self):
             if removed:
                 self._take(self.here)
-            coding = Coding.learn(self.rows, self.layout)
-            self.sketch, order = Sketch.learn(self.rows, coding)
+            self.sketch, order = Sketch.learn(self.rows, self.layout)
             self._take(order)
             self._ordered = len(order)
 
