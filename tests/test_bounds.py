@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from index.arrays import ByteArray, DoubleArray, PositionArray, SingleArray
-from index.bounds import Question, box_bounds, first_bounds, row_bounds
+from index.bounds import Question, box_bounds, coarse_bounds, collect, fine_bounds
 
 SIZE = 4  # rows in a box
 seeds = st.integers(0, 2**32 - 1)
@@ -49,26 +49,11 @@ class Case:
         codes = self.codes.transpose(1, 0, 2)
         return self.slow(self.away(codes, codes))
 
-    def looked(self, boxes: PositionArray, n_first: int) -> tuple[Any, Any, SingleArray]:
-        """Return steps, totals and the least bounds by the first groups."""
-        steps = np.empty((len(boxes), SIZE), np.uint16)
-        totals = np.empty((len(boxes), SIZE), np.float32)
-        least = np.empty(len(boxes), np.float32)
-        first = np.ascontiguousarray(self.codes[:, :n_first])
-        first_bounds(first, boxes, self.question, steps, totals, least)
-        return steps, totals, least
-
-    def collected(
-        self, boxes: PositionArray, n_first: int, limit: float
-    ) -> tuple[PositionArray, SingleArray]:
-        """Return the positions within a limit, and their bounds."""
-        steps, totals, _ = self.looked(boxes, n_first)
-        n_rows, n_rest = len(self.codes) * SIZE, self.codes.shape[1] - n_first
-        rest = np.ascontiguousarray(self.codes[:, n_first:].transpose(0, 2, 1)).reshape(n_rows, n_rest)
-        positions = np.empty(len(boxes) * SIZE, np.int64)
-        bounds = np.empty(len(positions), np.float32)
-        found = row_bounds(rest, boxes, self.question, steps, totals, limit, positions, bounds)
-        return positions[:found], bounds[:found]
+    def coarse(self, boxes: PositionArray) -> tuple[SingleArray, SingleArray]:
+        """Return the bounds of the rows in some boxes, and what bounds all of a box's."""
+        bounds, least = np.empty((len(boxes), SIZE), np.float32), np.empty(len(boxes), np.float32)
+        coarse_bounds(self.codes, boxes, self.question, bounds, least)
+        return bounds, least
 
 
 @given(seed=seeds)
@@ -81,35 +66,41 @@ def test_boxes_are_bounded_by_the_formula(seed: int) -> None:
     assert (bounds <= case.rows().min(axis=1)).all()
 
 
-@given(seed=seeds, data=st.data())
-def test_exactly_the_rows_within_the_limit_are_collected_in_order(seed: int, data: st.DataObject) -> None:
+@given(seed=seeds)
+def test_rows_of_some_boxes_are_bounded_by_the_formula(seed: int) -> None:
     case = Case(seed)
     expected = case.rows()
-    boxes = np.flatnonzero(np.random.default_rng(seed).random(len(case.codes)) < 0.7)
-    n_first = data.draw(st.integers(1, case.codes.shape[1]))
-    borders = [*expected.reshape(-1).tolist(), 0.0, np.inf]
-    limit = data.draw(st.sampled_from(borders))  # that of a row: equal ones are within
-    positions, bounds = case.collected(boxes, n_first, limit)
-    inside = [(box * SIZE + r, expected[box, r]) for box in boxes for r in range(SIZE)]
-    inside = [(position, bound) for position, bound in inside if bound <= limit]
-    assert positions.tolist() == [position for position, _ in inside]
-    assert bounds.tolist() == [bound for _, bound in inside]
+    boxes = np.random.default_rng(seed).permutation(len(case.codes))[:5]
+    bounds, least = case.coarse(boxes)
+    np.testing.assert_array_equal(bounds, expected[boxes])
+    assert (least <= expected[boxes].min(axis=1)).all()
+    if len(set(case.blocks)) == 1:  # then nothing is lost by bounding block by block
+        np.testing.assert_array_equal(least, expected[boxes].min(axis=1))
 
 
-@given(seed=seeds, data=st.data())
-def test_what_the_first_groups_tell_of_a_box_holds_for_all_of_its_rows(
-    seed: int, data: st.DataObject
-) -> None:
+@given(seed=seeds)
+def test_single_rows_are_bounded_by_the_same_formula(seed: int) -> None:
     case = Case(seed)
-    boxes = np.arange(len(case.codes))
-    n_first = data.draw(st.integers(1, case.codes.shape[1]))
-    _, _, least = case.looked(boxes, n_first)
-    assert (least <= case.rows().min(axis=1)).all()
-    if len(set(case.blocks[:n_first])) == 1:  # then nothing is lost by bounding block by block
-        codes = case.codes[:, :n_first].transpose(1, 0, 2)
-        steps = case.away(codes, codes).sum(axis=0, dtype=float).min(axis=1)
-        expected = float(case.weights[0]) * steps**case.power
-        np.testing.assert_array_equal(least, expected)
+    codes = np.ascontiguousarray(case.codes.transpose(0, 2, 1)).reshape(-1, case.codes.shape[1])
+    rows = np.random.default_rng(seed).permutation(len(codes))[:7]
+    bounds = np.empty(len(rows), np.float32)
+    fine_bounds(codes, rows, case.question, bounds)
+    np.testing.assert_array_equal(bounds, case.rows().reshape(-1)[rows])
+
+
+@given(seed=seeds, width=st.integers(1, 40), data=st.data())
+def test_exactly_the_bounds_within_the_limit_are_collected_in_order(
+    seed: int, width: int, data: st.DataObject
+) -> None:
+    generator = np.random.default_rng(seed)
+    bounds = generator.integers(0, 50, (6, width)).astype(np.float32)
+    places = np.sort(generator.permutation(6)[:4])
+    limit = data.draw(st.sampled_from([0.0, float(bounds[0, 0]), np.inf]))  # equal ones are within
+    positions = np.empty(4 * width, np.int64)
+    found = collect(bounds, places, limit, positions)
+    flat = bounds.reshape(-1)
+    expected = [place * width + r for place in places.tolist() for r in range(width)]
+    assert positions[:found].tolist() == [place for place in expected if flat[place] <= limit]
 
 
 def test_sums_beyond_sixteen_bits_never_give_more_than_the_distance() -> None:

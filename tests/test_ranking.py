@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from index import coding, ranking, sketch, vectors
+from index import candidates, ranking, sketch, vectors
 from index.arrays import DoubleArray, PositionArray, RowArray
 from index.distances import distances, levels_of
 from index.layout import Layout
@@ -33,10 +33,11 @@ def small() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(vectors, "SKETCHED", 20)
         patch.setattr(sketch, "BOX", 8)
-        patch.setattr(sketch, "SEEDS", 3)
-        patch.setattr(sketch, "FIRST", 4)
-        patch.setattr(coding, "FEWEST", 7)
-        patch.setattr(coding, "MERGED", 2)
+        patch.setattr(candidates, "BOX", 8)
+        patch.setattr(candidates, "LIKELY", 3)
+        patch.setattr(sketch, "COARSE", 4)
+        patch.setattr(sketch, "FINE", 7)
+        patch.setattr(sketch, "MERGED", 2)
         patch.setattr(ranking, "FIRST", 2)
         patch.setattr(ranking, "SECOND", 3)
         yield
@@ -165,6 +166,17 @@ def test_blocks_of_very_different_size_rank_as_comparing_all_does(power: int) ->
             assert rank(found, query, limit) == by_comparing_all(found, query, limit)
 
 
+@pytest.mark.parametrize("exponent", [-19.0, -20.0, -21.0, -21.5, -22.0, -22.3, -22.5])
+def test_blocks_that_single_precision_hardly_holds_beside_others_still_rank_rightly(exponent: float) -> None:
+    layout = single_layout(2, (5, 5), (1.0, 1.0))
+    sizes = np.repeat([10.0**exponent, 1.0], 5)
+    rows = (np.random.default_rng(0).normal(size=(300, 10)).clip(-3, 3) * sizes).astype(np.float32)
+    rows[:200, 5:] = rows[0, 5:]  # so that for most the larger block does not decide
+    found = filled(layout, rows)
+    for query in rows[:200:20]:
+        assert rank(found, query, 20) == by_comparing_all(found, query, 20)
+
+
 @pytest.mark.parametrize("layout", LAYOUTS)
 def test_equal_rows_are_ordered_by_id(layout: Layout) -> None:
     rows = np.repeat(random_rows(layout, 1), 1000, axis=0)
@@ -194,9 +206,11 @@ def test_nothing_is_found_in_an_empty_or_wholly_excluded_library() -> None:
 
 
 def test_of_a_clustered_library_few_rows_are_compared_exactly(monkeypatch: pytest.MonkeyPatch) -> None:
-    for module, name, value in [(sketch, "BOX", 64), (sketch, "SEEDS", 8), (sketch, "FIRST", 16)]:
-        monkeypatch.setattr(module, name, value)
-    monkeypatch.setattr(coding, "FEWEST", 32)
+    monkeypatch.setattr(sketch, "BOX", 64)
+    monkeypatch.setattr(candidates, "BOX", 64)
+    monkeypatch.setattr(candidates, "LIKELY", 8)
+    monkeypatch.setattr(sketch, "COARSE", 16)
+    monkeypatch.setattr(sketch, "FINE", 32)
     layout = byte_layout(1, (16, 60, 20))
     rows = clustered_rows(layout, 20_000, 200)
     found = filled(layout, rows)

@@ -6,14 +6,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from index import coding as coding_module
+from index import candidates as candidates_module
 from index import sketch as sketch_module
 from index.arrays import DoubleArray, RowArray
-from index.coding import Coding
+from index.candidates import MARGIN, Candidates
 from index.distances import distances, levels_of
 from index.layout import Layout
 from index.methods import Method, with_weights
-from index.sketch import MARGIN, Sketch
+from index.sketch import Sketch
 from tests.layouts import byte_layout, clustered_rows, random_rows, single_layout
 
 BOX = 4
@@ -30,10 +30,11 @@ seeds = st.integers(0, 2**32 - 1)
 def small() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(sketch_module, "BOX", BOX)
-        patch.setattr(sketch_module, "SEEDS", 3)
-        patch.setattr(sketch_module, "FIRST", 4)
-        patch.setattr(coding_module, "FEWEST", 7)
-        patch.setattr(coding_module, "MERGED", 2)
+        patch.setattr(candidates_module, "BOX", BOX)
+        patch.setattr(candidates_module, "LIKELY", 3)
+        patch.setattr(sketch_module, "COARSE", 4)
+        patch.setattr(sketch_module, "FINE", 7)
+        patch.setattr(sketch_module, "MERGED", 2)
         yield
 
 
@@ -41,7 +42,7 @@ def grown(layout: Layout, seed: int, sizes: Sequence[int]) -> tuple[Sketch, RowA
     """Return a sketch of rows that came piece by piece, and the rows by position."""
     rows = clustered_rows(layout, sum(sizes), 4, seed)
     edges = [0, *accumulate(sizes)]
-    sketch, order = Sketch.learn(rows[: edges[1]], Coding.learn(rows[: edges[1]], layout))
+    sketch, order = Sketch.learn(rows[: edges[1]], layout)
     for start, end in pairwise(edges[1:]):
         sketch.append(rows[start:end])
     return sketch, np.concatenate([rows[order], rows[edges[1] :]])
@@ -73,7 +74,7 @@ def test_no_row_within_a_distance_is_ruled_out_and_no_bound_exceeds_one(
     for query in (rows[-1], random_rows(layout, 1, seed)[0]):
         found = exact(layout, rows, query, method)
         limit = float(np.quantile(found, share))
-        candidates = sketch.candidates(query, method, largest(layout, rows))
+        candidates = Candidates(sketch, query, method, largest(layout, rows))
         candidates.by_centres(5)
         candidates.by_rows(limit, 5)
         positions, bounds = candidates.within(limit)
@@ -90,10 +91,10 @@ def test_rows_that_come_later_are_kept_as_those_that_were_learnt(
 ) -> None:
     sketch, rows = grown(layout, seed, sizes)
     assert sketch.size == len(rows)
-    codes = sketch.coding.codes(rows)
-    boxed = sketch.first.transpose(0, 2, 1).reshape(-1, sketch.first.shape[1])
-    kept = np.hstack([boxed, sketch.rest])[: len(rows)]
-    np.testing.assert_array_equal(kept, codes)
+    codes = sketch.coarse.codes(rows)
+    boxed = sketch.boxes.transpose(0, 2, 1).reshape(-1, codes.shape[1])
+    np.testing.assert_array_equal(boxed[: len(rows)], codes)
+    np.testing.assert_array_equal(sketch.codes[: len(rows)], sketch.fine.codes(rows))
     for box, start in enumerate(range(0, len(rows), BOX)):
         np.testing.assert_array_equal(sketch.lows[:, box], codes[start : start + BOX].min(axis=0))
         np.testing.assert_array_equal(sketch.highs[:, box], codes[start : start + BOX].max(axis=0))
@@ -104,7 +105,7 @@ def test_room_grows_by_a_share_and_not_row_by_row() -> None:
     rooms = []
     for row in rows[:200]:
         sketch.append(row[None])
-        rooms.append(len(sketch.first))
+        rooms.append(len(sketch.boxes))
     assert sketch.size == 600
     assert len(set(rooms)) < 8  # of the 50 boxes that were added
 
@@ -112,10 +113,9 @@ def test_room_grows_by_a_share_and_not_row_by_row() -> None:
 def test_the_order_is_a_permutation_and_makes_boxes_small() -> None:
     layout = LAYOUTS[0]
     rows = clustered_rows(layout, 400, 20)
-    coding = Coding.learn(rows, layout)
-    sketch, order = Sketch.learn(rows, coding)
+    sketch, order = Sketch.learn(rows, layout)
     np.testing.assert_array_equal(np.sort(order), np.arange(400))
-    as_they_came = Sketch.empty(coding)
+    as_they_came = Sketch.empty(sketch.coarse, sketch.fine)
     as_they_came.append(rows)
     sizes = [(each.highs.astype(int) - each.lows).sum() for each in (sketch, as_they_came)]
     assert sizes[0] < 0.5 * sizes[1]
@@ -126,7 +126,7 @@ def test_likely_rows_are_distinct_and_as_many_as_are_asked_for_at_most(
     layout: Layout, seed: int, count: int
 ) -> None:
     sketch, rows = grown(layout, seed, [70, 5])
-    candidates = sketch.candidates(rows[0], layout.method, largest(layout, rows))
+    candidates = Candidates(sketch, rows[0], layout.method, largest(layout, rows))
     for positions in (candidates.by_centres(count), candidates.by_rows(np.inf, count)):
         assert 0 < len(set(positions.tolist())) == len(positions) <= count
         assert positions.max() < 75
@@ -137,7 +137,7 @@ def test_likely_rows_are_much_nearer_than_others(layout: Layout) -> None:
     sketch, rows = grown(layout, 0, [300])
     for query in rows[::30]:
         found = exact(layout, rows, query)
-        candidates = sketch.candidates(query, layout.method, largest(layout, rows))
+        candidates = Candidates(sketch, query, layout.method, largest(layout, rows))
         for positions in (candidates.by_centres(5), candidates.by_rows(np.inf, 5)):
             assert np.median(found[positions]) < 0.5 * np.median(found)
 
