@@ -57,10 +57,8 @@ def box_bounds(lows: ByteArray, highs: ByteArray, question: Question, out: Singl
 
 
 @compiled
-def coarse_bounds(
-    codes: ByteArray, boxes: PositionArray, question: Question, out: SingleArray, least: SingleArray
-) -> None:
-    """Bound the distance of each row in some boxes.
+def least_bounds(codes: ByteArray, boxes: PositionArray, question: Question, out: SingleArray) -> None:
+    """Bound the distance of all rows in some boxes by the codes of each.
 
     Parameters
     ----------
@@ -69,13 +67,11 @@ def coarse_bounds(
     boxes : (m,) array
         Which boxes.
     question : Question
-    out : (m, r) array
-    least : (m,) array
-        A bound of all rows in a box: the least of `out`, or less.
+    out : (m,) array
     """
     below, above, weights, ends, power = question
     steps = np.empty(codes.shape[2], np.uint16)
-    out[:], least[:] = np.float32(0), np.float32(0)
+    out[:] = np.float32(0)
     for place in range(len(boxes)):
         rows = codes[boxes[place]]
         steps[:] = np.uint16(0)
@@ -83,9 +79,48 @@ def coarse_bounds(
             _add_steps(rows[g], below[g], above[g], steps)
             if ends[g]:
                 step = np.float32(_least(steps))
-                least[place] += weights[g] * (step if power == 1 else step * step)
-                _add_power(steps, weights[g], power, out[place])
+                out[place] += weights[g] * (step if power == 1 else step * step)
                 steps[:] = np.uint16(0)
+
+
+@compiled
+def rows_within(
+    codes: ByteArray, boxes: PositionArray, question: Question, limit: float, positions: PositionArray
+) -> int:
+    """Collect the rows of some boxes whose bound is within a limit.
+
+    Parameters
+    ----------
+    codes, boxes, question
+        As for `least_bounds`.
+    limit : float
+    positions : array
+        Room for the rows found: box · r + place in it, ascending where the boxes are.
+
+    Returns
+    -------
+    int
+        How many were found.
+    """
+    below, above, weights, ends, power = question
+    size, found = codes.shape[2], 0
+    steps, total = np.empty(size, np.uint16), np.empty(size, np.float32)
+    for box in boxes:
+        rows = codes[box]
+        steps[:], total[:] = np.uint16(0), np.float32(0)
+        for g in range(len(rows)):
+            _add_steps(rows[g], below[g], above[g], steps)
+            if ends[g]:
+                _add_power(steps, weights[g], power, total)
+                steps[:] = np.uint16(0)
+        for start in range(0, size, FEW):
+            some = total[start : start + FEW]
+            if _count_within(some, np.float32(limit)):
+                for place in range(len(some)):
+                    if some[place] <= limit:
+                        positions[found] = box * size + start + place
+                        found += 1
+    return found
 
 
 @compiled
@@ -110,21 +145,6 @@ def fine_bounds(codes: ByteArray, rows: PositionArray, question: Question, out: 
             total += weights[start] * (steps if power == 1 else steps * steps)
             start = end
         out[place] = total
-
-
-@compiled
-def collect(bounds: SingleArray, places: PositionArray, limit: float, positions: PositionArray) -> int:
-    """Collect where in some rows of bounds (m, r) they are within a limit, as place · r + column."""
-    width, found = bounds.shape[1], 0
-    for place in places:
-        for start in range(0, width, FEW):
-            some = bounds[place, start : start + FEW]
-            if _count_within(some, np.float32(limit)):
-                for column in range(len(some)):
-                    if some[column] <= limit:
-                        positions[found] = place * width + start + column
-                        found += 1
-    return found
 
 
 @compiled
