@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from index.arrays import PositionArray, RowArray, SingleArray
+from index.arrays import DoubleArray, PositionArray, RowArray, SingleArray
 from index.bounds import Question, box_bounds, fine_bounds, least_bounds, rows_within
 from index.coding import Coding
 from index.methods import Method
@@ -29,8 +29,12 @@ class Candidates:
     def __init__(self, sketch: Sketch, query: RowArray, method: Method, largest: float) -> None:
         self._sketch = sketch
         self._query = query
-        self._coarse = _question(sketch.coarse, query, method, largest)
-        self._fine = _question(sketch.fine, query, method, largest)
+        of_steps = [_weights(coding, method) for coding in (sketch.coarse, sketch.fine)]
+        self._unit = max(float(weights.max()) for weights in of_steps) or 1.0  # of all bounds
+        self._coarse, self._fine = (
+            _question(coding, query, weights / self._unit, method.power, largest)
+            for coding, weights in zip((sketch.coarse, sketch.fine), of_steps, strict=True)
+        )
         self._boxes = np.empty(0, np.int64)  # those whose rows were looked at,
         self._bounds = np.empty(0, np.float32)  # and a bound for all rows in each
 
@@ -43,18 +47,23 @@ class Candidates:
         """Look at all rows in boxes that may hold one within a distance; return likelier positions."""
         bounds = np.empty(self._sketch.lows.shape[1], np.float32)
         box_bounds(self._sketch.lows, self._sketch.highs, self._coarse, bounds)
-        self._boxes = np.flatnonzero(bounds[: self._sketch.n_boxes] <= _above(limit))
+        self._boxes = np.flatnonzero(bounds[: self._sketch.n_boxes] <= self._above(limit))
         self._bounds = np.empty(len(self._boxes), np.float32)
         least_bounds(self._sketch.boxes, self._boxes, self._coarse, self._bounds)
         few = min(LIKELY, len(self._boxes)) - 1
         return self._likeliest(self._boxes[np.argpartition(self._bounds, few)[: few + 1]], count)
 
-    def within(self, limit: float) -> tuple[PositionArray, SingleArray]:
+    def within(self, limit: float) -> tuple[PositionArray, DoubleArray]:
         """Return positions looked at whose rows may be within a distance, ascending, and their bounds."""
-        positions = self._rows(self._boxes[self._bounds <= _above(limit)], _above(limit))
+        above = self._above(limit)
+        positions = self._rows(self._boxes[self._bounds <= above], above)
         bounds = self._finely(positions)
-        near = bounds <= _above(limit)
-        return positions[near], bounds[near]
+        near = bounds <= above
+        return positions[near], bounds[near] * np.float64(self._unit)
+
+    def _above(self, limit: float) -> float:
+        with np.errstate(over="ignore"):  # then it is infinite, and rules out nothing
+            return float(np.float32(limit / self._unit * (1.0 + MARGIN)))
 
     def _likeliest(self, boxes: PositionArray, count: int) -> PositionArray:
         positions = self._rows(boxes, np.inf)
@@ -74,12 +83,12 @@ class Candidates:
         return bounds
 
 
-def _question(coding: Coding, query: RowArray, method: Method, largest: float) -> Question:
-    blocks = coding.merges.blocks
-    weights = (coding.layout.weights(method)[blocks] * coding.steps**method.power).astype(np.float32)
-    return Question.of(*coding.ends(query, largest), blocks, weights, method.power)
+def _weights(coding: Coding, method: Method) -> DoubleArray:
+    """Return what a sum of steps of each group weighs, (g,)."""
+    return np.asarray(coding.layout.weights(method)[coding.merges.blocks] * coding.steps**method.power)
 
 
-def _above(limit: float) -> float:
-    with np.errstate(over="ignore"):  # then it is infinite, and rules out nothing
-        return float(np.float32(limit * (1.0 + MARGIN)))
+def _question(coding: Coding, query: RowArray, weights: DoubleArray, power: int, largest: float) -> Question:
+    """Ask in single precision: weights are 1 at most, and so small ones that it would round much are 0."""
+    kept = np.where(weights < np.finfo(np.float32).tiny, 0.0, weights).astype(np.float32)
+    return Question.of(*coding.ends(query, largest), coding.merges.blocks, kept, power)
