@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from index.arrays import ByteArray, DoubleArray, PositionArray, SingleArray
-from index.bounds import Question, box_bounds, coarse_bounds, collect, fine_bounds
+from index.bounds import Question, box_bounds, fine_bounds, least_bounds, rows_within
 
 SIZE = 4  # rows in a box
 seeds = st.integers(0, 2**32 - 1)
@@ -49,12 +49,6 @@ class Case:
         codes = self.codes.transpose(1, 0, 2)
         return self.slow(self.away(codes, codes))
 
-    def coarse(self, boxes: PositionArray) -> tuple[SingleArray, SingleArray]:
-        """Return the bounds of the rows in some boxes, and what bounds all of a box's."""
-        bounds, least = np.empty((len(boxes), SIZE), np.float32), np.empty(len(boxes), np.float32)
-        coarse_bounds(self.codes, boxes, self.question, bounds, least)
-        return bounds, least
-
 
 @given(seed=seeds)
 def test_boxes_are_bounded_by_the_formula(seed: int) -> None:
@@ -67,15 +61,15 @@ def test_boxes_are_bounded_by_the_formula(seed: int) -> None:
 
 
 @given(seed=seeds)
-def test_rows_of_some_boxes_are_bounded_by_the_formula(seed: int) -> None:
+def test_the_least_bound_of_a_box_holds_for_all_of_its_rows(seed: int) -> None:
     case = Case(seed)
-    expected = case.rows()
     boxes = np.random.default_rng(seed).permutation(len(case.codes))[:5]
-    bounds, least = case.coarse(boxes)
-    np.testing.assert_array_equal(bounds, expected[boxes])
-    assert (least <= expected[boxes].min(axis=1)).all()
+    expected = case.rows()[boxes].min(axis=1)
+    least = np.empty(len(boxes), np.float32)
+    least_bounds(case.codes, boxes, case.question, least)
+    assert (least <= expected).all()
     if len(set(case.blocks)) == 1:  # then nothing is lost by bounding block by block
-        np.testing.assert_array_equal(least, expected[boxes].min(axis=1))
+        np.testing.assert_array_equal(least, expected)
 
 
 @given(seed=seeds)
@@ -88,19 +82,16 @@ def test_single_rows_are_bounded_by_the_same_formula(seed: int) -> None:
     np.testing.assert_array_equal(bounds, case.rows().reshape(-1)[rows])
 
 
-@given(seed=seeds, width=st.integers(1, 40), data=st.data())
-def test_exactly_the_bounds_within_the_limit_are_collected_in_order(
-    seed: int, width: int, data: st.DataObject
-) -> None:
-    generator = np.random.default_rng(seed)
-    bounds = generator.integers(0, 50, (6, width)).astype(np.float32)
-    places = np.sort(generator.permutation(6)[:4])
-    limit = data.draw(st.sampled_from([0.0, float(bounds[0, 0]), np.inf]))  # equal ones are within
-    positions = np.empty(4 * width, np.int64)
-    found = collect(bounds, places, limit, positions)
-    flat = bounds.reshape(-1)
-    expected = [place * width + r for place in places.tolist() for r in range(width)]
-    assert positions[:found].tolist() == [place for place in expected if flat[place] <= limit]
+@given(seed=seeds, data=st.data())
+def test_exactly_the_rows_within_the_limit_are_collected_in_order(seed: int, data: st.DataObject) -> None:
+    case = Case(seed)
+    expected = case.rows().reshape(-1)
+    boxes = np.flatnonzero(np.random.default_rng(seed).random(len(case.codes)) < 0.7)
+    limit = data.draw(st.sampled_from([*expected.tolist(), 0.0, np.inf]))  # equal ones are within
+    positions = np.empty(len(boxes) * SIZE, np.int64)
+    found = rows_within(case.codes, boxes, case.question, limit, positions)
+    rows = [box * SIZE + r for box in boxes.tolist() for r in range(SIZE)]
+    assert positions[:found].tolist() == [row for row in rows if expected[row] <= limit]
 
 
 def test_sums_beyond_sixteen_bits_never_give_more_than_the_distance() -> None:
