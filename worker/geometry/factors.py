@@ -13,7 +13,7 @@ from worker.compiled import compiled
 from worker.geometry.elimination import STRIP, WIDE, eliminate, panel_width
 from worker.geometry.fronts import Fronts
 
-TINY = 1e-13  # a pivot relative to what stood in its place at first, below which it counts as 0
+TINY = 1e-13  # a pivot relative to what stood in its place at first, or to the median, below which it is 0
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -115,7 +115,8 @@ def _factorised(  # noqa: C901 - compiled: one loop, plainly
     local = np.empty(len(order), np.int64)
     stack, used, n_waiting = np.empty(1 << 16), 0, 0
     waiting = np.empty(n_groups, np.int64)
-    least = TINY * np.abs(diagonal[order])  # of the pivot at each place
+    # A vertex of almost no area has a diagonal that says nothing of how exact its pivot is.
+    least = TINY * np.minimum(np.abs(diagonal[order]), np.median(np.abs(diagonal)))
     offset, negative = 0, 0
     for group in range(n_groups):
         begin, end, size = groups[group], groups[group + 1], sizes[group]
