@@ -8,7 +8,7 @@ from index.coding import Coding
 from index.methods import Method
 from index.sketch import BOX, Sketch
 
-MARGIN = 1e-5  # relative, by which bounds in single precision may exceed the true ones
+MARGIN = 1e-4  # relative, by which bounds in single precision may exceed the true ones
 LIKELY = 16  # boxes in which likely rows are looked for
 
 
