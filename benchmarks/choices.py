@@ -4,7 +4,6 @@ On the protocol of `faience evaluate`; what is described is kept, so that a stop
 """
 
 import argparse
-import re
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
@@ -27,6 +26,7 @@ from benchmarks.comparing import (
     table_of,
     typical_of,
 )
+from benchmarks.pages import fill_page
 from benchmarks.variant_signatures import Bench, describe
 from benchmarks.variant_words import learn, make_blocks
 from service.commands.opening import pool_for
@@ -40,7 +40,6 @@ from service.settings import Settings
 from worker.parameters import Operator, Parameters
 
 PAGE = Path(__file__).parents[1] / "docs" / "choices.md"
-PARTS = re.compile(r"(<!-- table (\S+) -->\n).*?(<!-- end -->)", re.DOTALL)
 PRELOAD = ("benchmarks.variant_words", "service.evaluation.registering")
 OPERATOR = "operator"  # table, and the test of fewer queries for it: mesh-laplace is several times slower
 STRENGTH, MODELS = 3, slice(None, None, 3)  # of those queries
@@ -64,8 +63,7 @@ def main() -> None:
     start = time.perf_counter()
     with threadpool_limits(1), pool_for(settings, PRELOAD) as pool:
         tables = {"measured": summary(tests), **measure_all(pool, bench, tests)}
-    page = options.page.read_text(encoding="utf-8")
-    options.page.write_text(fill(page, tables), encoding="utf-8")
+    fill_page(options.page, tables)
     print(f"{options.page.name}: {', '.join(tables)}; {time.perf_counter() - start:.0f} s")
 
 
@@ -114,13 +112,6 @@ def summary(tests: Mapping[str, Suite]) -> str:
         f"{models} models at strengths {', '.join(map(str, strengths))}: {len(tests[PAPER].queries)} queries "
         f"among {len(tests[PAPER].gallery)} shapes, {len(tests[TWINS].gallery)} with the twins; "
         f"{len(tests[OPERATOR].queries)} queries for the operators.\n"
-    )
-
-
-def fill(page: str, tables: Mapping[str, str]) -> str:
-    """Put tables between the markers of a page."""
-    return PARTS.sub(
-        lambda part: f"{part[1]}{tables[part[2]]}{part[3]}" if part[2] in tables else part[0], page
     )
 
 

@@ -7,10 +7,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from benchmarks.pages import fill_page, markdown
+
 PAGE = Path(__file__).parents[1] / "docs" / "evaluation.md"
 STRENGTHS = ("1", "≤ 2", "≤ 3", "≤ 4", "≤ 5")
 DETAILED = ("fused", "chks")  # methods whose strengths are shown one by one
-PARTS = re.compile(r"(<!-- table (\S+) -->\n)(.*?)(<!-- end -->)", re.DOTALL)
 PLAIN = re.compile(r"[^:,]+")  # a method's name, without what an ablation left out of it
 
 Methods = Mapping[str, Mapping[str, Mapping[str, Sequence[float | None]]]]
@@ -22,9 +23,7 @@ def main() -> None:
     arguments.add_argument("results", type=Path)
     document = json.loads(arguments.parse_args().results.read_text(encoding="utf-8"))
     tables = {name: table for test in document["tests"] for name, table in tables_of(test).items()}
-    page = PAGE.read_text(encoding="utf-8")
-    filled = PARTS.sub(lambda part: f"{part[1]}{tables.get(part[2], part[3])}{part[4]}", page)
-    PAGE.write_text(filled, encoding="utf-8")
+    fill_page(PAGE, tables)
     print(f"{PAGE.name}: {', '.join(tables)}")
 
 
@@ -66,8 +65,7 @@ def ablation(methods: Methods) -> str:
 
 
 def _table(head: Sequence[str], lines: Sequence[Sequence[str]]) -> str:
-    rule = ["---", *["--:"] * (len(head) - 1)]
-    return "".join(f"| {' | '.join(cells)} |\n" for cells in (head, rule, *lines))
+    return markdown(head, ["---", *["--:"] * (len(head) - 1)], lines)
 
 
 def _number(value: float | None) -> str:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from benchmarks.alternatives import TABLES, Alternative, Relative, alone, fused, of_operator
-from benchmarks.choices import OPERATOR, PAGE, PARTS, fill, prepare, suites_of
+from benchmarks.choices import OPERATOR, PAGE, prepare, suites_of
 from benchmarks.comparing import (
     PAPER,
     TWIN_COLUMN,
@@ -18,6 +18,7 @@ from benchmarks.comparing import (
     table_of,
     typical_of,
 )
+from benchmarks.pages import places_of
 from benchmarks.variant_signatures import Bench, histogram_of
 from benchmarks.variant_words import cluster
 from benchmarks.variants import BAGS, CURVE_BLOCKS, DEFAULTS, HISTOGRAMS, Histogram
@@ -142,17 +143,13 @@ def test_rows_of_one_method_stand_together_and_may_have_a_cost() -> None:
     assert rows[1]["price"] == COLOUR.upper()
 
 
-def test_a_table_is_markdown_and_takes_its_place_in_the_page() -> None:
+def test_a_table_is_markdown() -> None:
     table = table_of([{"method": "`m`", "": "**x**", "all": "1.0"}, {"method": "`m`", "": "y", "all": "2.0"}])
     assert table == "| method |  | all |\n| --- | --- | --: |\n| `m` | **x** | 1.0 |\n| `m` | y | 2.0 |\n"
-    page = "a\n<!-- table one -->\nold\n<!-- end -->\nb\n<!-- table two -->\nkept\n<!-- end -->\n"
-    assert fill(page, {"one": table}) == page.replace("old\n", table)
-    assert fill(fill(page, {"one": "x\n"}), {"one": table}) == fill(page, {"one": table})
 
 
 def test_the_page_has_a_place_for_every_table() -> None:
-    places = [place[1] for place in PARTS.findall(PAGE.read_text(encoding="utf-8"))]
-    assert places == ["measured", *TABLES, OPERATOR]
+    assert places_of(PAGE.read_text(encoding="utf-8")) == ["measured", *TABLES, OPERATOR]
 
 
 def test_words_are_those_that_a_library_would_learn() -> None:
