@@ -6,7 +6,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from worker.reading.obj_lines import read_any, read_plain
-from worker.reading.plain_text import scan_numbers
 
 WORD = st.sampled_from(
     ["v", "vt", "vn", "f", "#", "usemtl", "mtllib", "o", "s", "1", "-2", "3/4", "5//6", "7/8/9", "-1/-1"]
@@ -45,29 +44,3 @@ def test_what_programs_write_is_plain(text: str) -> None:
 )
 def test_what_is_odd_is_left_to_others(text: str) -> None:
     assert read_plain(text.encode()) is None
-
-
-def number(word: str) -> float | None:
-    values, lengths = np.empty(4), np.empty(4, dtype=np.int64)
-    found, _ = scan_numbers(np.frombuffer(word.encode(), dtype=np.uint8), values, lengths)
-    return float(values[0]) if found == 1 else None
-
-
-@given(st.floats(allow_nan=False, allow_infinity=False))
-def test_numbers_are_right_to_the_last_bit_or_left_to_others(value: float) -> None:
-    assert number(repr(value)) in {value, None}
-
-
-@given(st.integers(1, 10**18), st.integers(0, 22))
-def test_long_fractions_are_rounded_once(digits: int, places: int) -> None:
-    word = f"{digits}e-{places}"
-    assert number(word) in {float(word), None}
-    assert digits > 2**53 or number(word) is not None
-
-
-def test_lines_of_numbers_are_counted() -> None:
-    values, lengths = np.empty(9), np.empty(9, dtype=np.int64)
-    text = np.frombuffer(b"1 2 3\n\n \n4\r\n5 6", dtype=np.uint8)
-    assert scan_numbers(text, values, lengths) == (6, 3)
-    assert values[:6].tolist() == [1, 2, 3, 4, 5, 6]
-    assert lengths[:3].tolist() == [3, 1, 2]

@@ -43,9 +43,7 @@ def test_a_vertex_of_almost_no_area_hides_no_pairs(size: float) -> None:
     corners = vertices[[a, b, c]]
     middle = corners.mean(axis=0)
     n = len(vertices)
-    vertices = np.vstack(
-        [vertices, middle + size * (corners - middle), middle]
-    )
+    vertices = np.vstack([vertices, middle + size * (corners - middle), middle])
     p, q, r, s = range(n, n + 4)
     ring = [(a, b, q), (a, q, p), (b, c, r), (b, r, q), (c, a, p), (c, p, r)]
     faces = np.vstack([faces[1:], ring, [(p, q, s), (q, r, s), (r, p, s)]])

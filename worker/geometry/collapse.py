@@ -4,13 +4,12 @@ The shortest edges go first, level by level; a new vertex minimises the quadric 
 Heckbert (1997).
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
-from worker.arrays import BoolArray, FloatArray, IntArray
+from worker.arrays import FloatArray, IntArray
 from worker.compiled import compiled
 from worker.geometry.edges import find_edges
+from worker.geometry.linked_surface import LinkedSurface, compact, linked, merge, n_shared, valence
 from worker.geometry.quadrics import plane_quadrics
 
 MANY = 4  # times the vertices wanted, above which levels are coarser
@@ -20,21 +19,6 @@ PENALTY = 2.0  # by which the squares of edges at a vertex look longer after eac
 GIVE_UP = 1e4  # penalty from which an edge is left alone
 MIDDLE = 1e-2  # pull of the middle of the edge, relative to the quadric
 TURN = 0.2  # cosine of the largest turn of a triangle, about 80°
-
-
-class _Surface(NamedTuple):
-    """What collapses change. Lists of the faces around a vertex are linked, so that two join in one step."""
-
-    vertices: FloatArray  # (n, 3)
-    faces: IntArray  # (m, 3)
-    present: BoolArray  # (m,), faces that are left
-    quadrics: FloatArray  # (n, 9), as from `plane_quadrics`
-    border: BoolArray  # (n,), whether the vertex lies on an open edge
-    penalties: FloatArray  # (n,), 1 or more
-    marks: IntArray  # (n,), the number of the last search that met a vertex
-    first: IntArray  # (n,), the first corner 3 f + k at a vertex; −1 where it is gone
-    last: IntArray  # (n,)
-    following: IntArray  # (3 m,), the next corner at the same vertex, or −1
 
 
 def collapse_short_edges(
@@ -65,49 +49,16 @@ def collapse_short_edges(
     border = np.zeros(len(vertices), dtype=np.bool_)
     border[edges.ends[edges.n_faces == 1]] = True
     quadrics = plane_quadrics(vertices, faces, (edges.n_faces == 1)[edges.of_faces])
-    surface = _linked(vertices.copy(), faces.copy(), quadrics, border)
+    surface = linked(vertices.copy(), faces.copy(), quadrics, border)
     if len(vertices) > MANY * n_vertices:
         _run(surface, MANY * n_vertices, longest**2, COARSE**2, 1)
-        surface = _linked(*_compact(surface))
+        surface = linked(*compact(surface))
     _run(surface, n_vertices, longest**2, FINE**2, SCATTER)
-    return _compact(surface)[:2]
-
-
-def _linked(vertices: FloatArray, faces: IntArray, quadrics: FloatArray, border: BoolArray) -> _Surface:
-    n = len(vertices)
-    surface = _Surface(
-        vertices=vertices,
-        faces=faces,
-        present=np.ones(len(faces), dtype=np.bool_),
-        quadrics=quadrics,
-        border=border,
-        penalties=np.ones(n),
-        marks=np.full(n, -1),
-        first=np.full(n, -1),
-        last=np.full(n, -1),
-        following=np.full(faces.size, -1),
-    )
-    _link(surface)
-    return surface
-
-
-def _compact(surface: _Surface) -> tuple[FloatArray, IntArray, FloatArray, BoolArray]:
-    """Drop what is gone; return vertices, faces, quadrics, border."""
-    faces = surface.faces[surface.present]
-    named = np.zeros(len(surface.vertices), dtype=np.bool_)
-    named[faces] = True
-    new = np.cumsum(named) - 1
-    return surface.vertices[named], new[faces], surface.quadrics[named], surface.border[named]
+    return compact(surface)[:2]
 
 
 @compiled
-def _link(surface: _Surface) -> None:
-    for corner in range(surface.faces.size):
-        _append(surface, surface.faces[corner // 3, corner % 3], corner)
-
-
-@compiled
-def _run(surface: _Surface, n_vertices: int, longest: float, growth: float, scatter: int) -> None:
+def _run(surface: LinkedSurface, n_vertices: int, longest: float, growth: float, scatter: int) -> None:
     """Collapse edges up to a level, then up to a higher one; all in squared lengths."""
     left, searches, point = len(surface.first), 0, np.empty(3)
     level = min(_mean_square(surface) / 4.0, longest)
@@ -131,7 +82,7 @@ def _run(surface: _Surface, n_vertices: int, longest: float, growth: float, scat
 
 
 @compiled
-def _mean_square(surface: _Surface) -> float:
+def _mean_square(surface: LinkedSurface) -> float:
     total = 0.0
     for face in range(len(surface.faces)):
         for corner in range(3):
@@ -140,7 +91,7 @@ def _mean_square(surface: _Surface) -> float:
 
 
 @compiled
-def _square(surface: _Surface, start: int, end: int) -> float:
+def _square(surface: LinkedSurface, start: int, end: int) -> float:
     x = surface.vertices[start, 0] - surface.vertices[end, 0]
     y = surface.vertices[start, 1] - surface.vertices[end, 1]
     z = surface.vertices[start, 2] - surface.vertices[end, 2]
@@ -148,7 +99,7 @@ def _square(surface: _Surface, start: int, end: int) -> float:
 
 
 @compiled
-def _nearest(surface: _Surface, vertex: int, longest: float) -> tuple[int, float]:
+def _nearest(surface: LinkedSurface, vertex: int, longest: float) -> tuple[int, float]:
     """Return the neighbour at the end of the edge that looks shortest, and its square; −1 and ∞ for none."""
     best, least = -1, np.inf
     corner = surface.first[vertex]
@@ -165,7 +116,7 @@ def _nearest(surface: _Surface, vertex: int, longest: float) -> tuple[int, float
 
 
 @compiled
-def _try(surface: _Surface, kept: int, gone: int, point: FloatArray, search: int) -> bool:
+def _try(surface: LinkedSurface, kept: int, gone: int, point: FloatArray, search: int) -> bool:
     """Collapse an edge where that is allowed; otherwise let its surroundings look longer."""
     allowed = _keeps_topology(surface, kept, gone, 2 * search)
     if allowed:
@@ -180,12 +131,12 @@ def _try(surface: _Surface, kept: int, gone: int, point: FloatArray, search: int
     for entry in range(9):
         surface.quadrics[kept, entry] += surface.quadrics[gone, entry]
     surface.border[kept] |= surface.border[gone]
-    _merge(surface, kept, gone)
+    merge(surface, kept, gone)
     return True
 
 
 @compiled
-def _keeps_topology(surface: _Surface, start: int, end: int, mark: int) -> bool:
+def _keeps_topology(surface: LinkedSurface, start: int, end: int, mark: int) -> bool:
     """Check the link condition: the ends share as many neighbours as the edge has faces.
 
     Tetrahedra and lone triangles meet it as well, and would vanish.
@@ -209,37 +160,15 @@ def _keeps_topology(surface: _Surface, start: int, end: int, mark: int) -> bool:
             if surface.marks[other] == mark:
                 surface.marks[other] = mark + 1
                 common, apex = common + 1, other
-                threefold += _valence(surface, other) == 3
+                threefold += valence(surface, other) == 3
         corner = surface.following[corner]
     if common != n_faces or threefold > 1:
         return False
-    return n_faces > 1 or _n_shared(surface, start, apex) > 1 or _n_shared(surface, end, apex) > 1
+    return n_faces > 1 or n_shared(surface, start, apex) > 1 or n_shared(surface, end, apex) > 1
 
 
 @compiled
-def _valence(surface: _Surface, vertex: int) -> int:
-    """Count neighbours: as many as faces, one more at a border."""
-    count = int(surface.border[vertex])
-    corner = surface.first[vertex]
-    while corner >= 0:
-        count += 1
-        corner = surface.following[corner]
-    return count
-
-
-@compiled
-def _n_shared(surface: _Surface, start: int, end: int) -> int:
-    """Count the faces at an edge."""
-    count, corner = 0, surface.first[start]
-    while corner >= 0:
-        for place in range(3):
-            count += surface.faces[corner // 3, place] == end
-        corner = surface.following[corner]
-    return count
-
-
-@compiled
-def _settle(surface: _Surface, kept: int, gone: int, point: FloatArray) -> None:
+def _settle(surface: LinkedSurface, kept: int, gone: int, point: FloatArray) -> None:
     """Minimise the quadric error by Cramer's rule, pulled a little to the middle for flat places."""
     first, second, vertices = surface.quadrics[kept], surface.quadrics[gone], surface.vertices
     xx, xy, xz = first[0] + second[0], first[1] + second[1], first[2] + second[2]
@@ -262,7 +191,7 @@ def _settle(surface: _Surface, kept: int, gone: int, point: FloatArray) -> None:
 
 
 @compiled
-def _turns(surface: _Surface, vertex: int, other: int, point: FloatArray) -> bool:
+def _turns(surface: LinkedSurface, vertex: int, other: int, point: FloatArray) -> bool:
     """Tell whether a triangle at one end but not the other would turn too far; one without area cannot."""
     corner, here = surface.first[vertex], surface.vertices[vertex]
     while corner >= 0:
@@ -284,51 +213,3 @@ def _doubled(a: FloatArray, b: FloatArray, c: FloatArray) -> tuple[float, float,
     x, y, z = b[0] - a[0], b[1] - a[1], b[2] - a[2]
     u, v, w = c[0] - a[0], c[1] - a[1], c[2] - a[2]
     return y * w - z * v, z * u - x * w, x * v - y * u
-
-
-@compiled
-def _merge(surface: _Surface, kept: int, gone: int) -> None:
-    """Let the faces of one vertex name the other, drop those that name both, and calm the surroundings."""
-    surface.following[surface.last[kept]] = surface.first[gone]
-    corner, surface.first[kept], surface.first[gone] = surface.first[kept], -1, -1
-    while corner >= 0:
-        face, following, both = corner // 3, surface.following[corner], 0
-        for place in range(3):
-            if surface.faces[face, place] == gone:
-                surface.faces[face, place] = kept
-            both += surface.faces[face, place] == kept
-        surface.following[corner] = -1
-        if both == 1:
-            _append(surface, kept, corner)
-        elif surface.present[face]:
-            surface.present[face] = False
-            _unlink(surface, face, kept)
-        corner = following
-
-
-@compiled
-def _append(surface: _Surface, vertex: int, corner: int) -> None:
-    if surface.first[vertex] < 0:
-        surface.first[vertex] = corner
-    else:
-        surface.following[surface.last[vertex]] = corner
-    surface.last[vertex] = corner
-    for place in range(3):
-        surface.penalties[surface.faces[corner // 3, place]] = 1.0
-
-
-@compiled
-def _unlink(surface: _Surface, face: int, kept: int) -> None:
-    """Take a face off the list of its vertex that stays as it is."""
-    for place in range(3):
-        vertex = surface.faces[face, place]
-        if vertex != kept:
-            corner, before = surface.first[vertex], -1
-            while corner != 3 * face + place:
-                before, corner = corner, surface.following[corner]
-            if before < 0:
-                surface.first[vertex] = surface.following[corner]
-            else:
-                surface.following[before] = surface.following[corner]
-            if surface.last[vertex] == corner:
-                surface.last[vertex] = before

@@ -1,4 +1,4 @@
-"""Plain numbers and OBJ lines, read byte by byte; whatever is odd is left to the readers that explain it."""
+"""Plain OBJ lines, read byte by byte; whatever is odd is left to the readers that explain it."""
 
 from typing import NamedTuple
 
@@ -6,13 +6,9 @@ import numpy as np
 
 from worker.arrays import ByteArray, FloatArray, IntArray
 from worker.compiled import compiled
+from worker.reading.decimals import read_decimal, read_whole
 
-POWERS = 10.0 ** np.arange(23)  # exact in double precision
-WHOLE = 2**53  # integers below it are doubles
-LONGEST = 2**62 // 10  # ten times it and a digit fit into 63 bits
-DIGITS = 18  # of a whole number
-MINUS, PLUS, SLASH, POINT, HASH = b"-+/.#"
-LETTER_E, CAPITAL_E = b"eE"
+MINUS, SLASH, HASH = b"-/#"
 LETTER_F, LETTER_G, LETTER_N, LETTER_O, LETTER_S, LETTER_T, LETTER_V = b"fgnostv"
 
 NONE, OTHER, VERTEX, UV, FACE, MATERIAL, LIBRARY, COMMENT = range(8)  # kinds of lines
@@ -83,39 +79,6 @@ def scan_obj(text: ByteArray, lines: PlainLines) -> bool:
 
 
 @compiled
-def scan_numbers(text: ByteArray, values: FloatArray, lengths: IntArray) -> tuple[int, int]:
-    """Read lines of numbers.
-
-    Parameters
-    ----------
-    text : (n,) array
-    values, lengths : (k,), (l,) arrays
-        Filled with the numbers, and how many stand on each line that is not blank.
-
-    Returns
-    -------
-    n_values, n_lines : int
-        −1 where something is no plain number.
-    """
-    at, n_values, n_lines = 0, 0, 0
-    while at < len(text):
-        at = _skip_blanks(text, at)
-        before = n_values
-        while at < len(text) and text[at] != 10:
-            value, at = _number(text, at)
-            if at < 0:
-                return -1, -1
-            values[n_values] = value
-            n_values += 1
-            at = _skip_blanks(text, at)
-        if n_values > before:
-            lengths[n_lines] = n_values - before
-            n_lines += 1
-        at += 1
-    return n_values, n_lines
-
-
-@compiled
 def _skip_blanks(text: ByteArray, at: int) -> int:
     while at < len(text) and (text[at] == 32 or (text[at] != 10 and 9 <= text[at] <= 13)):
         at += 1
@@ -170,7 +133,7 @@ def _read_row(text: ByteArray, at: int, row: FloatArray, least: int, absent: flo
     count = 0
     at = _skip_blanks(text, at)
     while at < len(text) and text[at] != 10 and text[at] != HASH:
-        value, at = _number(text, at)
+        value, at = read_decimal(text, at)
         if at < 0:
             return -1
         if count < len(row):
@@ -192,7 +155,7 @@ def _read_face(text: ByteArray, at: int, lines: PlainLines) -> int:
     at = _skip_blanks(text, at)
     while at < len(text) and text[at] != 10 and text[at] != HASH:
         lines.corners[corner, 1] = 0
-        lines.corners[corner, 0], at = _whole(text, at)
+        lines.corners[corner, 0], at = read_whole(text, at)
         if at >= 0 and at < len(text) and text[at] == SLASH:
             at = _read_rest(text, at + 1, lines.corners[corner])
         if at < 0 or (at < len(text) and text[at] != 32 and not 9 <= text[at] <= 13):
@@ -214,7 +177,7 @@ def _read_face(text: ByteArray, at: int, lines: PlainLines) -> int:
 def _read_rest(text: ByteArray, at: int, corner: IntArray) -> int:
     """Read what stands after the first slash of a corner; the number of a normal is not looked at."""
     if at < len(text) and text[at] != SLASH:
-        corner[1], at = _whole(text, at)
+        corner[1], at = read_whole(text, at)
         if corner[1] == 0:
             return -1
     if at >= 0 and at < len(text) and text[at] == SLASH:
@@ -222,86 +185,3 @@ def _read_rest(text: ByteArray, at: int, corner: IntArray) -> int:
         while at < len(text) and (48 <= text[at] <= 57 or text[at] == MINUS):
             at += 1
     return at
-
-
-@compiled
-def _whole(text: ByteArray, at: int) -> tuple[int, int]:
-    """Read a whole number; return it and where it ends, −1 where there is none."""
-    negative = text[at] == MINUS
-    start = at = at + (negative or text[at] == PLUS)
-    value = 0
-    while at < len(text) and 48 <= text[at] <= 57 and at - start <= DIGITS:
-        value = 10 * value + (text[at] - 48)
-        at += 1
-    if not 0 < at - start <= DIGITS:
-        return 0, -1
-    return (-value if negative else value), at
-
-
-@compiled
-def _number(text: ByteArray, at: int) -> tuple[float, int]:
-    """Read a decimal number; return it and where its word ends, −1 where it is not plain."""
-    negative = text[at] == MINUS
-    at += negative or text[at] == PLUS
-    digits, exponent, n_digits, point = 0, 0, 0, False
-    while at < len(text):
-        byte = text[at]
-        if 48 <= byte <= 57:
-            if digits > LONGEST:
-                return 0.0, -1
-            digits = 10 * digits + (byte - 48)
-            n_digits += 1
-            exponent -= point
-        elif byte == POINT and not point:
-            point = True
-        else:
-            break
-        at += 1
-    if n_digits == 0:
-        return 0.0, -1
-    if at < len(text) and (text[at] == LETTER_E or text[at] == CAPITAL_E):
-        if at + 1 >= len(text):
-            return 0.0, -1
-        more, at = _whole(text, at + 1)
-        exponent += more
-    if at < 0 or (at < len(text) and text[at] != 32 and not 9 <= text[at] <= 13):
-        return 0.0, -1
-    value, exact = _decimal(digits, exponent)
-    return (-value if negative else value), (at if exact else -1)
-
-
-@compiled
-def _decimal(digits: int, exponent: int) -> tuple[float, bool]:
-    """Return digits · 10^exponent rounded once, as Clinger (1990) does, and whether that is certain."""
-    if digits == 0:
-        return 0.0, True
-    if not -22 <= exponent <= 22:
-        return 0.0, False
-    if digits <= WHOLE:
-        return (digits / POWERS[-exponent] if exponent < 0 else digits * POWERS[exponent]), True
-    if exponent >= 0:
-        return 0.0, False
-    power, high = POWERS[-exponent], float(digits)
-    quotient = high / power
-    product, error = _product(quotient, power)
-    rest = ((high - product) - error) + float(digits - int(high))
-    correction = rest / power  # of the quotient, itself known to about 50 bits
-    value = quotient + correction
-    margin = 1e-13 * abs(correction)
-    return value, quotient + (correction - margin) == quotient + (correction + margin)
-
-
-@compiled
-def _product(first: float, second: float) -> tuple[float, float]:
-    """Return a product and its rounding error (Dekker 1971)."""
-    product = first * second
-    high, low = _halves(first)
-    upper, lower = _halves(second)
-    return product, ((high * upper - product) + high * lower + low * upper) + low * lower
-
-
-@compiled
-def _halves(number: float) -> tuple[float, float]:
-    shifted = 134_217_729.0 * number  # 2^27 + 1
-    high = shifted - (shifted - number)
-    return high, number - high
