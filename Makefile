@@ -1,5 +1,5 @@
 # Every command sets up what it needs; `make setup` alone prepares .venv.
-.PHONY: setup run test check lock vocabulary picture evaluation choices
+.PHONY: setup run test check lock vocabulary picture evaluation choices bench
 VENV := .venv
 PYTHON := $(VENV)/bin/python
 STAMP := $(VENV)/.complete
@@ -44,3 +44,7 @@ evaluation: setup
 # Measures what the choices cost that the paper leaves open, and fills the tables of docs/choices.md: make choices DATA=folder
 choices: setup
 	$(PYTHON) -m benchmarks.choices $(DATA)
+
+# Measures what describing and searching cost, and fills the tables of docs/speed.md; half an hour or more, on a quiet machine: make bench DATA=folder
+bench: setup
+	$(PYTHON) -m benchmarks.bench $(DATA)
