@@ -45,6 +45,6 @@ evaluation: setup
 choices: setup
 	$(PYTHON) -m benchmarks.choices $(DATA)
 
-# Measures what describing and searching cost, and fills the tables of docs/speed.md; half an hour or more, on a quiet machine: make bench DATA=folder
+# Measures what describing and searching cost, and fills the tables of docs/speed.md (half an hour): make bench DATA=folder
 bench: setup
 	$(PYTHON) -m benchmarks.bench $(DATA)

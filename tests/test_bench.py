@@ -65,7 +65,7 @@ def test_no_data_no_rows_of_cores() -> None:
 
 
 def test_the_same_numbers_give_the_same_drawing_and_no_numbers_an_empty_one() -> None:
-    measured = {
+    measured: Measured = {
         "search-sizes": {"rows": SEARCHES},
         "eigen-sizes": {"rows": EIGEN},
         "job-sizes": {"rows": JOBS},
