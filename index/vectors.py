@@ -89,11 +89,14 @@ class Vectors:
                 self._ids[position] = GONE
 
     def settle(self) -> None:
-        """Put the rows in order, where there are many and a good part of them is not."""
+        """Forget removed rows and put the others in order, where a good part is removed or out of order."""
         removed = len(self._ids) - len(self)
-        if len(self) >= SKETCHED and len(self._ids) - self._ordered + removed > STALE * len(self):
-            if removed:
-                self._take(self.here)
+        if len(self._ids) - self._ordered + removed <= STALE * len(self):
+            return
+        if removed:
+            self._take(self.here)
+            self.sketch, self._ordered = None, 0
+        if len(self) >= SKETCHED:
             self.sketch, order = Sketch.learn(self.rows, self.layout)
             self._take(order)
             self._ordered = len(order)

@@ -9,6 +9,7 @@ from importlib.metadata import version
 from anyio import CapacityLimiter, to_thread
 from fastapi import APIRouter, Depends, FastAPI
 
+from index.rehearsal import rehearse as rehearse_search
 from service.http.dependencies import Services, guard
 from service.http.errors import add_handlers
 from service.http.headers import AddSafeHeaders
@@ -22,7 +23,7 @@ from service.jobs.describing import Describe, describe_files
 from service.jobs.pool import ProcessPerJob
 from service.jobs.workers import Worker, process_name
 from service.library import Library
-from service.refining import rehearse
+from service.refining import rehearse as rehearse_registration
 from service.settings import Settings
 
 OpenLibrary = Callable[[Settings], Library]
@@ -120,12 +121,17 @@ def _services(
 @contextlib.contextmanager
 def _rehearsal() -> Iterator[None]:
     """Make compiled functions ready beside the start, which does not wait for them; the end does."""
-    thread = threading.Thread(target=rehearse, name="rehearsal")
+    thread = threading.Thread(target=_rehearse, name="rehearsal")
     thread.start()
     try:
         yield
     finally:
         thread.join()
+
+
+def _rehearse() -> None:
+    rehearse_registration()
+    rehearse_search()
 
 
 @contextlib.contextmanager

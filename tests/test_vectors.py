@@ -123,3 +123,12 @@ def test_unknown_ids_are_nowhere_and_their_removal_changes_nothing() -> None:
     found.remove(["b", GONE])
     assert found.positions(["b", "s0", "s0", GONE]).tolist() == [0]
     assert len(found) == 1
+
+
+def test_rows_that_change_again_and_again_take_no_more_room() -> None:
+    found = Vectors(LAYOUT)
+    for seed in range(50):
+        found.put(["a", "b"], random_rows(LAYOUT, 2, seed))
+        found.settle()
+    assert len(found.ids) <= 4
+    assert len(found) == 2
