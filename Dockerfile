@@ -13,6 +13,7 @@ RUN useradd --system --create-home --home-dir /data faience
 COPY --from=build /faience/.venv /faience/.venv
 ENV PATH=/faience/.venv/bin:$PATH \
     FAIENCE_DATA_DIR=/data/library \
+    NUMBA_CACHE_DIR=/data/compiled \
     OMP_NUM_THREADS=1 \
     OPENBLAS_NUM_THREADS=1
 USER faience
