@@ -103,7 +103,12 @@ class Vectors:
 
     def arrays(self) -> dict[str, npt.NDArray[Any]]:
         """Return all that `restored` needs beside the ids; views, not copies."""
-        return {"rows": self.rows} | ({} if self.sketch is None else self.sketch.arrays())
+        own = {
+            "rows": self.rows,
+            "largest": np.array(self.largest),
+            "ordered": np.array(self._ordered),
+        }
+        return own if self.sketch is None else own | self.sketch.arrays()
 
     @classmethod
     def restored(cls, layout: Layout, ids: list[str], arrays: dict[str, npt.NDArray[Any]]) -> "Vectors":
@@ -113,10 +118,10 @@ class Vectors:
         vectors._ids = ids
         vectors._positions = {shape_id: position for position, shape_id in enumerate(ids) if shape_id != GONE}
         vectors._here = np.array([shape_id != GONE for shape_id in ids], np.bool_)
-        if len(arrays) > 1:
+        if "boxes" in arrays:
             vectors.sketch = Sketch.restored(layout, arrays)
-            vectors._ordered = len(ids)
-        vectors._measure(vectors._rows)
+        vectors._ordered = int(arrays["ordered"])
+        vectors.largest = float(arrays["largest"])
         return vectors
 
     def _measure(self, rows: RowArray) -> None:

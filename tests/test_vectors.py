@@ -78,7 +78,7 @@ def test_few_rows_have_no_sketch_and_many_have_one_once_settled() -> None:
         each.settle()
     assert few.sketch is None
     assert many.sketch is not None
-    assert set(few.arrays()) == {"rows"}
+    assert set(few.arrays()) == {"rows", "largest", "ordered"}
 
 
 def test_the_order_is_made_anew_when_a_quarter_is_stale_and_not_before() -> None:
@@ -114,7 +114,7 @@ def test_the_largest_norm_is_that_of_any_row_so_far(layout: Layout) -> None:
         found.put([f"{seed}-{number}" for number in range(9)], rows)
         most = max(most, float(np.abs(levels_of(rows, layout)).sum(axis=1).max()))
         assert found.largest == most
-    again = Vectors.restored(layout, list(found.ids), {"rows": found.rows.copy()})
+    again = Vectors.restored(layout, list(found.ids), {**found.arrays(), "rows": found.rows.copy()})
     assert again.largest == most
 
 
