@@ -30,11 +30,6 @@ class StoredBlocks:
                 raise NotReady("this shape has no descriptors")
             return _read(session, [shape_id], vocabulary_id, None)[shape_id]
 
-    def blocks_of(self, shape_ids: Sequence[str], names: Collection[str]) -> dict[str, Blocks]:
-        """Return some blocks that need no vocabulary, of several shapes; what is not there is left out."""
-        with reading(self._engine) as session:
-            return _read(session, shape_ids, None, names)
-
     def block_rows(
         self,
         vocabulary_id: str | None,

@@ -82,32 +82,6 @@ def test_a_shape_without_descriptors_is_named(opened: Opened) -> None:
         opened.catalogue.blocks("b", opened.vocabulary_id)
 
 
-def test_some_blocks_of_some_shapes_are_read_without_a_vocabulary(opened: Opened) -> None:
-    curves = np.arange(4, dtype=np.float32)
-    for number, shape_id in enumerate("abc"):
-        add_ready(opened, shape_id, {**HISTOGRAM, "colour-curves": curves + number})
-    found = opened.catalogue.blocks_of(["c", "a"], ["colour-curves"])
-    assert {shape_id: set(blocks) for shape_id, blocks in found.items()} == {
-        "a": {"colour-curves"},
-        "c": {"colour-curves"},
-    }
-    np.testing.assert_array_equal(found["a"]["colour-curves"], curves)
-    np.testing.assert_array_equal(found["c"]["colour-curves"], curves + 2)
-    both = opened.catalogue.blocks_of(["b"], ["colour-curves", "colour-histogram"])["b"]
-    assert both.keys() == {"colour-curves", "colour-histogram"}
-
-
-def test_blocks_that_are_not_there_are_left_out(opened: Opened) -> None:
-    add_ready(opened, "a")
-    add_ready(opened, "removed")
-    opened.catalogue.remove("removed")
-    add_queued(opened, "waiting")
-    found = opened.catalogue.blocks_of(["a", "removed", "waiting", "unknown"], ["hks-0", "landmarks"])
-    assert not any(found.values())
-    assert opened.catalogue.blocks_of([], ["colour-histogram"]) == {}
-    assert opened.catalogue.blocks_of(["a"], []) == {"a": {}}
-
-
 def test_revisions_of_ready_shapes_are_those_of_their_last_change(opened: Opened) -> None:
     a = add_ready(opened, "a")
     add_ready(opened, "b")
