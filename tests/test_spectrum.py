@@ -122,12 +122,14 @@ def test_a_cap_far_below_the_number_of_pairs_keeps_the_smallest() -> None:
     np.testing.assert_allclose(found, expected, rtol=1e-8, atol=1e-9)
 
 
-def test_eigenfunctions_satisfy_the_equation() -> None:
+@pytest.mark.parametrize("cutoff", [PARAMETERS.cutoff, PARAMETERS.fine_cutoff])
+def test_eigenfunctions_satisfy_the_equation(cutoff: float) -> None:
     points, stiffness, areas = operator("cotangent")
-    pairs = solve_eigenpairs(points, stiffness, areas, PARAMETERS.fine_cutoff)
+    pairs = solve_eigenpairs(points, stiffness, areas, cutoff)
     functions = pairs.eigenfunctions
     residuals = (stiffness @ functions) / areas[:, None] - functions * pairs.eigenvalues
-    np.testing.assert_allclose(residuals, 0.0, atol=1e-8 * PARAMETERS.fine_cutoff * np.abs(functions).max())
+    # The iteration ends at 1e-7 of the inverted operator; how far below it gets, processors decide.
+    assert np.sqrt(areas @ residuals**2).max() < 1e-6 * cutoff
 
 
 def test_the_constant_function_is_constant_to_the_last_digits() -> None:
