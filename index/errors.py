@@ -103,3 +103,15 @@ class BadVocabulary(CatalogueError):
     """Bytes that are no vocabulary, or shapes too few or too alike to learn one from."""
 
     code = "bad_vocabulary"
+
+
+class KeyNotFound(CatalogueError):
+    """No API key has this id."""
+
+    code = "key_not_found"
+
+
+class BadKeyName(CatalogueError):
+    """The name of an API key is empty, too long or not printable."""
+
+    code = "bad_key_name"

@@ -154,3 +154,16 @@ class TombstoneRow(Base):
 
     shape_id: Mapped[str] = mapped_column(primary_key=True)
     revision: Mapped[int] = mapped_column(index=True)
+
+
+class ApiKeyRow(Base):
+    """Who may use the library over HTTP; a revoked key stays, so that the list tells of it."""
+
+    __tablename__ = "api_keys"
+
+    id: Mapped[str] = mapped_column(primary_key=True)  # public, part of the key
+    name: Mapped[str]  # whose it is, for people
+    digest: Mapped[bytes]  # SHA-256 of the key, which itself is kept nowhere
+    scope: Mapped[str]
+    created_at: Mapped[datetime]
+    revoked_at: Mapped[datetime | None]

@@ -54,6 +54,18 @@ def test_migrating_again_changes_nothing(tmp_path: Path) -> None:
     assert migrate_in(tmp_path) == migrate_in(tmp_path)
 
 
+def test_a_library_of_the_first_version_gets_its_keys_and_keeps_what_it_holds(tmp_path: Path) -> None:
+    library = migrate_in(tmp_path)
+    with sqlite3.connect(tmp_path / "catalogue.db") as earlier:
+        earlier.execute("DROP TABLE api_keys")
+        earlier.execute("UPDATE alembic_version SET version_num = '0001'")
+    earlier.close()
+    assert migrate_in(tmp_path) == library
+    engine = make_engine(url_in(tmp_path))
+    assert inspect(engine).has_table("api_keys")
+    engine.dispose()
+
+
 def test_processes_may_migrate_at_once(tmp_path: Path) -> None:
     with ProcessPoolExecutor(4, mp_context=multiprocessing.get_context("spawn")) as processes:
         libraries = set(processes.map(migrate_in, [tmp_path] * 4))

@@ -9,14 +9,14 @@ import pytest
 
 import index
 import service
-from index.errors import CatalogueError, DamagedIndex, LeaseLost, UnknownVocabulary
+from index.errors import BadKeyName, CatalogueError, DamagedIndex, KeyNotFound, LeaseLost, UnknownVocabulary
 from service.http.errors import CODES, TABLE
 from tests.problems import problem
 from tests.serving import serving, settings_for
 from worker.errors import MeshError
 
-# Never reach a request: they belong to workers, and to indexes that are built anew.
-INSIDE = {CatalogueError, LeaseLost, DamagedIndex, UnknownVocabulary}
+# Never reach a request: they belong to workers, to indexes that are built anew, and to the command line.
+INSIDE = {CatalogueError, LeaseLost, DamagedIndex, UnknownVocabulary, KeyNotFound, BadKeyName}
 
 
 def exceptions_with_codes() -> set[type[Exception]]:
