@@ -9,19 +9,23 @@ from importlib.metadata import version
 from anyio import CapacityLimiter, to_thread
 from fastapi import APIRouter, Depends, FastAPI
 
+from index.keys import Keys
 from index.rehearsal import rehearse as rehearse_search
 from service.http.dependencies import Services, guard
 from service.http.errors import add_handlers
 from service.http.headers import AddSafeHeaders
 from service.http.metrics import CountRequests, Metrics
-from service.http.openapi import DESCRIPTION, SUMMARY, describe_interface
+from service.http.openapi import DESCRIPTION, GUARDED, SUMMARY, describe_interface
 from service.http.plain_errors import ReplacePlainErrors
 from service.http.routes import contents, events, health, methods, page, search, shapes
 from service.http.turnstile import Turnstile
+from service.http.unexpected import AnswerUnexpected
+from service.http.upload_rate import UploadRate
 from service.jobs.child import ChildLimits
 from service.jobs.describing import Describe, describe_files
 from service.jobs.pool import ProcessPerJob
 from service.jobs.workers import Worker, process_name
+from service.key_ring import KeyRing
 from service.library import Library
 from service.refining import rehearse as rehearse_registration
 from service.settings import Settings
@@ -64,8 +68,7 @@ def create_app(
         docs_url=None,  # FastAPI's own pages load scripts from elsewhere; ours is in routes.page
         redoc_url=None,
     )
-    app.state.key_digests = settings.key_digests
-    app.state.for_this_machine = not settings.api_keys and not settings.insecure
+    app.add_middleware(AnswerUnexpected)
     app.add_middleware(ReplacePlainErrors)
     app.add_middleware(AddSafeHeaders)
     app.add_middleware(CountRequests, metrics=metrics)
@@ -85,7 +88,7 @@ def child_limits(settings: Settings) -> ChildLimits:
 
 
 def _add_routes(app: FastAPI) -> None:
-    guarded = APIRouter(prefix="/v1", dependencies=[Depends(guard)])
+    guarded = APIRouter(prefix="/v1", dependencies=[Depends(guard)], responses=GUARDED)
     for part in (search, shapes, contents, methods, events):  # the most asked for first
         guarded.include_router(part.router)
     app.include_router(guarded)
@@ -102,6 +105,8 @@ def _services(
         library = open_library(settings)
         stack.callback(library.close)
         metrics.watch(library)
+        keys = KeyRing(settings, Keys(library.engine).active)
+        stack.enter_context(keys.watching())
         searches = ProcessPerJob(slots=settings.search_slots, limits=child_limits(settings))
         searches.warm()
         stack.callback(searches.shutdown, cancel_futures=True)
@@ -109,6 +114,8 @@ def _services(
         notify = stack.enter_context(_embedded_worker(library, metrics, describe))
         yield Services(
             library=library,
+            keys=keys,
+            uploads=UploadRate(settings.uploads_per_minute),
             searches=searches,
             rankings=CapacityLimiter(RANKINGS),
             turnstile=Turnstile(settings.search_slots + settings.search_queue),

@@ -13,6 +13,7 @@ from service.first_run import Report, show_samples
 from service.jobs.pool import ProcessPerJob
 from service.jobs.workers import Worker, process_name
 from service.library import Library
+from service.listening import check_listening
 from service.samples import count_samples, make_samples
 from service.settings import Settings
 
@@ -39,7 +40,7 @@ def run_server(settings: Settings, workers: int, samples: bool, report: Report =
         Other machines would get in without a key.
     """
     settings = settings.model_copy(update={"workers": workers})
-    settings.check_listening()
+    check_listening(settings)
     _log_to_console()
     app = create_app(settings)
     server = uvicorn.Server(_config(app, settings))

@@ -1,6 +1,5 @@
 """What an operator may change, read from arguments and from the environment (``FAIENCE_…``)."""
 
-import hashlib
 from ipaddress import ip_address
 from pathlib import Path
 from typing import Annotated
@@ -8,9 +7,7 @@ from typing import Annotated
 from pydantic import Field, SecretStr, field_validator
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
-
-class UnsafeListening(Exception):
-    """The service would be open to other machines without a key."""
+from index.key_secrets import digest_of
 
 
 class Settings(BaseSettings):
@@ -22,8 +19,9 @@ class Settings(BaseSettings):
     database_url: str | None = None  # SQLite inside data_dir where none is given
     host: str = "127.0.0.1"
     port: int = Field(default=8000, ge=0, le=65535)
-    api_keys: Annotated[tuple[SecretStr, ...], NoDecode] = ()  # separated by commas in the environment
+    api_keys: Annotated[tuple[SecretStr, ...], NoDecode] = ()  # beside the library's; separated by commas
     insecure: bool = False  # listen beyond this machine without keys
+    uploads_per_minute: int = Field(default=600, ge=0)  # with one key; 0: as many as come
 
     max_body_bytes: int = Field(default=512 * 2**20, ge=1)  # of one upload
     max_files: int = Field(default=200, ge=1)  # of one upload
@@ -56,22 +54,7 @@ class Settings(BaseSettings):
     @property
     def key_digests(self) -> tuple[bytes, ...]:
         """SHA-256 of each API key: what requests are compared with."""
-        return tuple(hashlib.sha256(key.get_secret_value().encode()).digest() for key in self.api_keys)
-
-    def check_listening(self) -> None:
-        """Refuse to be open to other machines without a key.
-
-        Raises
-        ------
-        UnsafeListening
-            With what to do about it.
-        """
-        if self.insecure or self.api_keys or is_loopback(self.host):
-            return
-        raise UnsafeListening(
-            f"refusing to listen on {self.host!r} without a key: other machines could read and delete "
-            "everything. Set FAIENCE_API_KEYS, or pass --insecure where the network itself is trusted."
-        )
+        return tuple(digest_of(key.get_secret_value().encode()) for key in self.api_keys)
 
 
 def is_loopback(host: str) -> bool:

@@ -15,9 +15,10 @@ import httpx
 import pytest
 
 from service.intake.submissions import receive_paths
+from service.listening import UnsafeListening
 from service.retrieval import accept_upload
 from service.server import run_server, run_worker
-from service.settings import Settings, UnsafeListening
+from service.settings import Settings
 from tests.fakes import coloured_triangle
 from tests.serving import open_fake_library, settings_for, wait_until
 

@@ -6,7 +6,7 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from index.errors import CatalogueError
 from service.jobs.pool import ChildDied, PoolStopped
-from service.settings import UnsafeListening
+from service.listening import UnsafeListening
 from service.vocabularies import NoVocabulary
 from worker.errors import MeshError
 

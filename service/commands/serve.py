@@ -20,9 +20,7 @@ Workers = Annotated[
         "--workers", min=0, help="Meshes described at the same time; 0: none here.", show_default="2"
     ),
 ]
-Insecure = Annotated[
-    bool, typer.Option("--insecure", help="Listen beyond this machine without FAIENCE_API_KEYS.")
-]
+Insecure = Annotated[bool, typer.Option("--insecure", help="Listen beyond this machine without a key.")]
 Samples = Annotated[bool, typer.Option("--samples", help="Fill an empty library with sample creatures.")]
 
 
@@ -40,11 +38,12 @@ def serve(
         from service.commands.opening import opened, settings_for  # heavy; --help must not wait for it
         from service.commands.watching import watching
         from service.first_run import lacks_samples
+        from service.listening import check_listening
         from service.samples import count_samples
         from service.server import run_server
 
         settings = settings_for(data_dir, host=host, port=port, workers=workers, insecure=insecure or None)
-        settings.check_listening()
+        check_listening(settings)
         check_address(settings.host, settings.port)
         with opened(settings, make=True) as library:  # what is wrong with it is said before anything starts
             new = lacks_samples(library, count_samples())

@@ -10,11 +10,13 @@ from fastapi import Depends, Query, Request
 from fastapi.security import HTTPAuthorizationCredentials
 
 from index.methods import DEFAULT_METHOD
-from service.http.guards import bearer, check_host, check_key, check_origin
+from service.http.guards import bearer, check_host, check_key, check_origin, check_rate
 from service.http.metrics import Metrics
 from service.http.turnstile import Turnstile
+from service.http.upload_rate import UploadRate
 from service.intake.fields import read_weights
 from service.jobs.describing import Describe
+from service.key_ring import KeyRing
 from service.library import Library
 from service.retrieval import Question
 
@@ -24,6 +26,8 @@ class Services:
     """What the application opened at its start."""
 
     library: Library
+    keys: KeyRing  # who may come in
+    uploads: UploadRate  # and how often with a mesh
     searches: Executor  # describes meshes that are not kept
     turnstile: Turnstile  # before it
     rankings: CapacityLimiter  # threads that rank at the same time
@@ -46,10 +50,14 @@ async def library(request: Request) -> Library:
 async def guard(
     request: Request, credentials: Annotated[HTTPAuthorizationCredentials | None, Depends(bearer)]
 ) -> None:
-    """Let in who holds a key, and no pages of other sites."""
-    check_host(request)
+    """Let in who holds a key that allows this, and no pages of other sites; `request.state.holder` is who."""
+    opened = await services(request)
+    if not opened.keys.demanded and not opened.library.settings.insecure:
+        check_host(request)
     check_origin(request)
-    check_key(credentials, request.app.state.key_digests)
+    holder = check_key(request, credentials, opened.keys)
+    check_rate(request, holder, opened.uploads)
+    request.state.holder = holder
 
 
 async def question(

@@ -11,9 +11,10 @@ from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse
 
 from index import errors as kept
-from service.http.guards import CrossOrigin, ForeignHost, Unauthorised
+from service.http.guards import CrossOrigin, ForeignHost, ReadOnlyKey
 from service.http.problems import plain_problem, problem
 from service.http.turnstile import TooBusy
+from service.http.upload_rate import TooManyUploads
 from service.intake.fields import BadField
 from service.intake.multipart import (
     BadMultipart,
@@ -27,6 +28,7 @@ from service.intake.uploads import BodyTooLarge, SlowBody
 from service.jobs.child import ChildError
 from service.jobs.pool import ChildDied, PoolStopped
 from service.jobs.recording import GAVE_UP, UNEXPECTED, UNEXPECTED_DETAIL
+from service.key_ring import KeysUnreadable, Unauthorised
 from service.vocabularies import NoVocabulary
 from worker.errors import MeshError
 
@@ -45,6 +47,9 @@ TABLE: dict[type[Exception], tuple[HTTPStatus, str]] = {
     TooManyFiles: (HTTPStatus.REQUEST_ENTITY_TOO_LARGE, "Too many files or fields"),
     SlowBody: (HTTPStatus.REQUEST_TIMEOUT, "The body came too slowly"),
     Unauthorised: (HTTPStatus.UNAUTHORIZED, "A key is needed"),
+    KeysUnreadable: (HTTPStatus.SERVICE_UNAVAILABLE, "The keys cannot be read"),
+    ReadOnlyKey: (HTTPStatus.FORBIDDEN, "This key may only read"),
+    TooManyUploads: (HTTPStatus.TOO_MANY_REQUESTS, "Too many uploads with one key"),
     ForeignHost: (HTTPStatus.FORBIDDEN, "The service is open to this machine alone"),
     CrossOrigin: (HTTPStatus.FORBIDDEN, "Another site's page may not do this"),
     kept.ShapeNotFound: (HTTPStatus.NOT_FOUND, "There is no such shape"),
@@ -88,7 +93,7 @@ def add_handlers(app: FastAPI) -> None:
     app.add_exception_handler(RequestValidationError, _invalid)
     app.add_exception_handler(HTTPException, _http)
     app.add_exception_handler(OSError, _system)
-    app.add_exception_handler(Exception, _unexpected)
+    app.add_exception_handler(Exception, unexpected)
 
 
 def _known(request: Request, error: Exception) -> JSONResponse:
@@ -98,7 +103,9 @@ def _known(request: Request, error: Exception) -> JSONResponse:
     if kind in DETAILS:
         log.error("%s %s: %s", request.method, request.url.path, title, exc_info=error)
         return problem(status, code=code, title=title, detail=DETAILS[kind])
-    return problem(status, code=code, title=title, detail=str(getattr(error, "detail", "") or error))
+    response = problem(status, code=code, title=title, detail=str(getattr(error, "detail", "") or error))
+    response.headers.update(getattr(error, "headers", {}))
+    return response
 
 
 def _invalid(_: Request, error: Exception) -> JSONResponse:
@@ -122,10 +129,11 @@ def _system(request: Request, error: Exception) -> JSONResponse:
     if isinstance(error, OSError) and error.errno in FULL:
         status, title = TABLE[kept.StorageFull]
         return problem(status, code="storage_full", title=title, detail="nothing of this request was kept")
-    return _unexpected(request, error)
+    return unexpected(request, error)
 
 
-def _unexpected(request: Request, error: Exception) -> JSONResponse:
+def unexpected(request: Request, error: Exception) -> JSONResponse:
+    """Answer a defect: its inside is for the log only."""
     log.error("%s %s failed", request.method, request.url.path, exc_info=error)
     status, title = HTTPStatus.INTERNAL_SERVER_ERROR, "Something went wrong here"
     detail = "the service's log says more; the request can be tried again"

@@ -63,6 +63,9 @@ def problems(*statuses: int) -> dict[int | str, dict[str, Any]]:
     }
 
 
+GUARDED = problems(401, 403, 503)  # of every call that asks for a key
+
+
 def binary(media_type: str, description: str) -> dict[int | str, dict[str, Any]]:
     """Return the description of an answer that is a file."""
     schema = {"type": "string", "format": "binary"}

@@ -2,15 +2,16 @@
 
 import json
 import re
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Callable
+from functools import partial
 from typing import Annotated, Any
 
 import anyio
 from anyio import to_thread
-from fastapi import APIRouter, Header, Query
+from fastapi import APIRouter, Header, Query, Request
 from sse_starlette import EventSourceResponse, ServerSentEvent
 
-from service.http.dependencies import LibraryPart
+from service.http.dependencies import ServicesPart
 from service.http.openapi import problems
 from service.http.schemas import ShapeModel
 from service.library import Library
@@ -34,23 +35,27 @@ STREAM: dict[int | str, dict[str, Any]] = {
     responses=STREAM | problems(401, 503),
 )
 async def watch(
-    library: LibraryPart,
+    request: Request,
+    services: ServicesPart,
     last_event_id: Annotated[str | None, Header(description="sent by browsers that reconnect")] = None,
     since: Annotated[
         int | None, Query(ge=0, lt=MOST, description="a revision to start after; default: now")
     ] = None,
 ) -> EventSourceResponse:
     """Send `shape` (the shape) and `removed` (its id) events; the last of a batch has the revision as id."""
-    start = since
+    start, library = since, services.library
     if last_event_id is not None and re.fullmatch(r"[0-9]{1,18}", last_event_id):
         start = int(last_event_id)
     if start is None:
         start = await to_thread.run_sync(library.catalogue.revision)
-    return EventSourceResponse(_events(library, start), ping=PING_EVERY)
+    welcome = partial(services.keys.welcomes, request.state.holder)
+    return EventSourceResponse(_events(library, start, welcome), ping=PING_EVERY)
 
 
-async def _events(library: Library, revision: int) -> AsyncIterator[ServerSentEvent]:
-    while True:
+async def _events(
+    library: Library, revision: int, welcome: Callable[[], bool]
+) -> AsyncIterator[ServerSentEvent]:
+    while welcome():  # a key that is revoked hears no more
         revision, found = await to_thread.run_sync(_changes, library, revision)
         for event in found:
             yield event

@@ -6,7 +6,7 @@ from pydantic import BaseModel
 from starlette.responses import Response
 
 from service.http.dependencies import LibraryPart, ServicesPart, guard
-from service.http.openapi import problems
+from service.http.openapi import GUARDED, problems
 
 router = APIRouter(tags=["health"])
 
@@ -38,7 +38,7 @@ def ready(library: LibraryPart) -> Health:
     summary="Numbers for Prometheus",
     response_class=Response,
     dependencies=[Depends(guard)],
-    responses={200: {"content": {"text/plain": {"schema": {"type": "string"}}}}},
+    responses=GUARDED | {200: {"content": {"text/plain": {"schema": {"type": "string"}}}}},
 )
 def metrics(services: ServicesPart) -> Response:
     """Return counters of requests and jobs, and the state of the library."""

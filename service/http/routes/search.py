@@ -32,7 +32,7 @@ def _similar(services: Services, shape_id: str, question: Question) -> AnswerMod
     "/search",
     operation_id="searchByMesh",
     summary="What is similar to a mesh that is not kept",
-    responses=problems(400, 401, 403, 408, 409, 413, 415, 503, 507),
+    responses=problems(400, 401, 403, 408, 409, 413, 415, 429, 503, 507),
     openapi_extra=form_body(details=False),
 )
 async def search(request: Request, services: ServicesPart, question: QuestionPart) -> AnswerModel:

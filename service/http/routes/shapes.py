@@ -37,7 +37,7 @@ ADDED: dict[int | str, dict[str, Any]] = {
     operation_id="addShape",
     summary="Add a shape",
     status_code=202,
-    responses=ADDED | problems(400, 401, 403, 408, 413, 415, 503, 507),
+    responses=ADDED | problems(400, 401, 403, 408, 413, 415, 429, 503, 507),
     openapi_extra=form_body(details=True),
 )
 async def add_shape(
