@@ -8,12 +8,15 @@ from typing import Any
 
 from alembic import command
 from alembic.config import Config
+from alembic.migration import MigrationContext
 from sqlalchemy import Connection, Engine, create_engine, event
 from sqlalchemy.engine.interfaces import DBAPICursor
 from sqlalchemy.exc import OperationalError
 from sqlalchemy.orm import Session
 
 from index.errors import CatalogueBusy, StorageFull
+
+SCRIPTS = files("index") / "migrations"  # Alembic's steps
 
 _BUSY_SECONDS = 30  # how long a writer waits for another
 _CONNECTIONS = 90  # beyond the first ten: one for each thread of a busy service
@@ -33,15 +36,27 @@ def make_engine(url: str) -> Engine:
     return engine
 
 
-def migrate(engine: Engine) -> None:
-    """Bring the schema to this version's; several processes may do so at once."""
-    with as_file(files("index") / "migrations") as scripts:
+def migrate(engine: Engine, upto: str = "head") -> None:
+    """Bring the schema to this version's, or up to one revision; several processes may do so at once."""
+    writer = engine.execution_options(**{_WRITES: True})
+    with migrations() as config, _named(), writer.connect() as connection:
+        _let_tables_be_made_anew(connection)
+        with connection.begin():
+            before = MigrationContext.configure(connection).get_current_revision()
+            config.attributes["connection"] = connection
+            command.upgrade(config, upto)
+            if before != MigrationContext.configure(connection).get_current_revision():
+                _check_keys(connection)
+
+
+@contextmanager
+def migrations() -> Iterator[Config]:
+    """Lend Alembic's view of the steps that this version knows."""
+    with as_file(SCRIPTS) as scripts:
         config = Config()
         config.set_main_option("script_location", str(scripts).replace("%", "%%"))
         config.set_main_option("path_separator", "os")
-        with _named(), engine.execution_options(**{_WRITES: True}).begin() as connection:
-            config.attributes["connection"] = connection
-            command.upgrade(config, "head")
+        yield config
 
 
 @contextmanager
@@ -79,6 +94,22 @@ def writing(engine: Engine) -> Iterator[Session]:
     writer = engine.execution_options(**{_WRITES: True})
     with _named(), Session(writer, expire_on_commit=False) as session, session.begin():
         yield session
+
+
+def _let_tables_be_made_anew(connection: Connection) -> None:
+    # SQLite alters a column by making the table anew. With its foreign keys on, dropping the old table would
+    # delete every row that depends on it; inside a transaction they cannot be turned off.
+    if connection.dialect.name == "sqlite":
+        connection.detach()  # the setting ends with this connection
+        connection.connection.cursor().execute("PRAGMA foreign_keys = OFF")
+
+
+def _check_keys(connection: Connection) -> None:
+    if connection.dialect.name != "sqlite":  # others never stop checking
+        return
+    broken = connection.exec_driver_sql("PRAGMA foreign_key_check").first()
+    if broken is not None:
+        raise RuntimeError(f"a migration left rows of {broken[0]} without what they refer to in {broken[2]}")
 
 
 def _prepare_sqlite(connection: sqlite3.Connection, _record: Any) -> None:

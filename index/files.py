@@ -136,7 +136,7 @@ class FileStore:
             except FileNotFoundError:  # a delete beside us pruned the folder just now
                 if not left:
                     raise
-        _flush_folder(final.parent)
+        flush_folder(final.parent)
 
     def _prune(self, folder: Path) -> None:
         while folder != self._root:
@@ -163,10 +163,11 @@ def _make_folder(folder: Path) -> None:
         return
     _make_folder(folder.parent)
     folder.mkdir(exist_ok=True)
-    _flush_folder(folder.parent)
+    flush_folder(folder.parent)
 
 
-def _flush_folder(folder: Path) -> None:
+def flush_folder(folder: Path) -> None:
+    """Make the names in a folder durable."""
     descriptor = os.open(folder, os.O_RDONLY)
     try:
         os.fsync(descriptor)

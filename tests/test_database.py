@@ -14,6 +14,8 @@ from index.database import make_engine, migrate, reading, writing
 from index.errors import CatalogueBusy, StorageFull
 from index.revisions import now
 from index.tables import Base, StateRow, VocabularyRow
+from tests.catalogues import add_ready, open_catalogue
+from tests.made_migrations import pretend_newer
 
 
 def url_in(folder: Path) -> str:
@@ -140,3 +142,33 @@ def test_a_full_disk_is_named_reads_go_on_and_writes_recover(tmp_path: Path) -> 
     pages["limit"] = 0
     add(1_000_000)
     engine.dispose()
+
+
+def test_a_step_that_makes_a_table_anew_keeps_what_depends_on_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    opened = open_catalogue(tmp_path)
+    add_ready(opened, "one")
+    opened.engine.dispose()
+    pretend_newer(monkeypatch, tmp_path)
+    opened = open_catalogue(tmp_path)
+    with opened.engine.connect() as connection:
+        assert connection.execute(text("SELECT initial FROM shapes")).scalars().all() == ["s"]
+        assert connection.execute(text("PRAGMA foreign_keys")).scalar_one() == 1
+    assert len(opened.catalogue.get("one").files) == 1
+    assert set(opened.catalogue.blocks("one", opened.vocabulary_id)) == {"colour-histogram", "hks-0"}
+    opened.engine.dispose()
+
+
+def test_a_step_that_breaks_references_is_undone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    opened = open_catalogue(tmp_path)
+    add_ready(opened, "one")
+    pretend_newer(monkeypatch, tmp_path)
+    step = next((tmp_path / "migrations" / "versions").glob("r9999*"))
+    step.write_text(
+        step.read_text().replace("UPDATE shapes SET initial = substr(name, 1, 1)", "DELETE FROM shapes")
+    )
+    with pytest.raises(RuntimeError, match="without what they refer to in shapes"):
+        migrate(opened.engine)
+    assert opened.catalogue.get("one").name == "shape one"
+    opened.engine.dispose()

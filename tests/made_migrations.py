@@ -1,0 +1,52 @@
+"""Versions of Faience that never were: with fewer steps than this one, or with one more."""
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from index import database
+
+STEP = '''"""A step that makes the table of shapes anew and fills a new column from an old one."""
+
+import sqlalchemy as sa
+from alembic import op
+
+revision = "made"
+down_revision = "{newest}"
+branch_labels = None
+depends_on = None
+
+
+def upgrade() -> None:
+    """Apply this step."""
+    with op.batch_alter_table("shapes", recreate="always") as shapes:
+        shapes.add_column(sa.Column("initial", sa.String(), nullable=False, server_default="?"))
+    op.execute("UPDATE shapes SET initial = substr(name, 1, 1)")
+'''
+
+
+def pretend_older(patch: pytest.MonkeyPatch, folder: Path, steps: int = 1) -> None:
+    """Let this be a version that knows only the first steps."""
+    versions = _copied(patch, folder)
+    for path in _steps(versions)[steps:]:
+        path.unlink()
+
+
+def pretend_newer(patch: pytest.MonkeyPatch, folder: Path) -> None:
+    """Let this be a version whose shapes have a column ``initial``."""
+    versions = _copied(patch, folder)
+    newest = _steps(versions)[-1].name.split("_")[0].removeprefix("r")
+    (versions / "r9999_made.py").write_text(STEP.format(newest=newest))
+
+
+def _copied(patch: pytest.MonkeyPatch, folder: Path) -> Path:
+    copy = folder / "migrations"
+    ignored = shutil.ignore_patterns("__pycache__")
+    shutil.copytree(Path(database.__file__).parent / "migrations", copy, ignore=ignored)
+    patch.setattr(database, "SCRIPTS", copy)
+    return copy / "versions"
+
+
+def _steps(versions: Path) -> list[Path]:
+    return sorted(versions.glob("r*.py"))
