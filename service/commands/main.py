@@ -11,6 +11,7 @@ from typer.exceptions import TyperException
 from service.commands.evaluate import evaluate
 from service.commands.failures import STOPPED, say
 from service.commands.index import index
+from service.commands.key import key
 from service.commands.search import search
 from service.commands.serve import serve
 from service.commands.vocabulary import learn_vocabulary
@@ -26,6 +27,7 @@ app = typer.Typer(
 for command in (serve, worker, index, search, evaluate):
     app.command()(command)
 app.command("learn-vocabulary")(learn_vocabulary)
+app.add_typer(key)
 
 
 def _show_version(wanted: bool) -> None:
