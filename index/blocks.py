@@ -36,11 +36,22 @@ def decode_block(data: bytes) -> SingleArray:
     """Return a block (n,) as `index.packing.rounded` gives it, bit for bit; read-only."""
     kind, size = _HEADER.unpack_from(data)
     start = _HEADER.size + (_UNIT.size if kind & _CODES else 0)
-    raw = zlib.decompress(data[start:]) if kind & _ZLIB else data[start:]
+    raw = data[start:]
+    if kind & _ZLIB:
+        raw = _decompressed(raw, size if kind & _CODES else 4 * size)
     values: SingleArray = _unpacked(data, raw) if kind & _CODES else np.frombuffer(raw, dtype="<f4")
     if values.size != size:
         raise BadBlock(f"a stored block holds {values.size} numbers, its header says {size}")
     return values
+
+
+def _decompressed(data: bytes, size: int) -> bytes:
+    """Return what was compressed; never much more than ``size`` bytes, whatever the data says."""
+    stream = zlib.decompressobj()
+    raw = stream.decompress(data, size + 1)
+    if len(raw) != size or not stream.eof:
+        raise BadBlock(f"a stored block does not unpack to the {size} bytes that its header asks for")
+    return raw
 
 
 def _unpacked(data: bytes, raw: bytes) -> SingleArray:

@@ -115,3 +115,27 @@ class BadKeyName(CatalogueError):
     """The name of an API key is empty, too long or not printable."""
 
     code = "bad_key_name"
+
+
+class ExportRefused(CatalogueError):
+    """The root of the reasons why an exported library is not imported; nothing was changed."""
+
+    code = "export_refused"
+
+
+class DamagedExport(ExportRefused):
+    """It is cut, altered, not an export at all, or holds what no library holds."""
+
+    code = "damaged_export"
+
+
+class NewerFormat(ExportRefused):
+    """A newer version of Faience made it."""
+
+    code = "newer_format"
+
+
+class LibraryNotEmpty(ExportRefused):
+    """There are shapes already where it should go."""
+
+    code = "library_not_empty"

@@ -86,3 +86,11 @@ def test_what_hardly_shrinks_is_not_compressed() -> None:
     landmarks = np.random.default_rng(0).normal(size=2560).astype(np.float32)  # their exponents repeat
     assert len(zlib.compress(landmarks.tobytes())) < landmarks.nbytes
     assert encode_block("landmarks", landmarks)[5:] == landmarks.tobytes()
+
+
+def test_a_block_never_unpacks_to_more_than_its_header_says() -> None:
+    whole = encode_block("b", np.zeros(1000, dtype=np.float32))
+    bomb = whole[:5] + zlib.compress(bytes(1 << 24))
+    for data in (bomb, whole[:-3]):
+        with pytest.raises(BadBlock, match="unpack"):
+            decode_block(data)

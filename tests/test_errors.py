@@ -9,14 +9,26 @@ import pytest
 
 import index
 import service
-from index.errors import BadKeyName, CatalogueError, DamagedIndex, KeyNotFound, LeaseLost, UnknownVocabulary
+from index.errors import (
+    BadKeyName,
+    CatalogueError,
+    DamagedExport,
+    DamagedIndex,
+    ExportRefused,
+    KeyNotFound,
+    LeaseLost,
+    LibraryNotEmpty,
+    NewerFormat,
+    UnknownVocabulary,
+)
 from service.http.errors import CODES, TABLE
 from tests.problems import problem
 from tests.serving import serving, settings_for
 from worker.errors import MeshError
 
+EXPORTS = {ExportRefused, DamagedExport, NewerFormat, LibraryNotEmpty}
 # Never reach a request: they belong to workers, to indexes that are built anew, and to the command line.
-INSIDE = {CatalogueError, LeaseLost, DamagedIndex, UnknownVocabulary, KeyNotFound, BadKeyName}
+INSIDE = {CatalogueError, LeaseLost, DamagedIndex, UnknownVocabulary, KeyNotFound, BadKeyName, *EXPORTS}
 
 
 def exceptions_with_codes() -> set[type[Exception]]:
