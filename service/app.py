@@ -18,6 +18,7 @@ from service.http.metrics import CountRequests, Metrics
 from service.http.openapi import DESCRIPTION, GUARDED, SUMMARY, describe_interface
 from service.http.plain_errors import ReplacePlainErrors
 from service.http.routes import contents, events, health, methods, page, search, shapes
+from service.http.slow_bodies import LimitBodyTime
 from service.http.turnstile import Turnstile
 from service.http.unexpected import AnswerUnexpected
 from service.http.upload_rate import UploadRate
@@ -67,6 +68,9 @@ def create_app(
         lifespan=lifespan,
         docs_url=None,  # FastAPI's own pages load scripts from elsewhere; ours is in routes.page
         redoc_url=None,
+    )
+    app.add_middleware(
+        LimitBodyTime, idle_seconds=settings.body_idle_seconds, seconds=settings.body_seconds
     )
     app.add_middleware(AnswerUnexpected)
     app.add_middleware(ReplacePlainErrors)

@@ -10,6 +10,7 @@ from fastapi import FastAPI
 
 from service.app import child_limits, create_app
 from service.first_run import Report, show_samples
+from service.http.connections import BoundedConnection
 from service.jobs.pool import ProcessPerJob
 from service.jobs.workers import Worker, process_name
 from service.library import Library
@@ -52,6 +53,7 @@ def run_server(settings: Settings, workers: int, samples: bool, report: Report =
 def _config(app: FastAPI, settings: Settings) -> uvicorn.Config:
     return uvicorn.Config(
         app,
+        http=BoundedConnection,
         host=settings.host,
         port=settings.port,
         timeout_graceful_shutdown=GRACE_SECONDS,

@@ -14,10 +14,12 @@ import uvicorn
 
 from index.vocabulary import Vocabulary, learn_vocabulary
 from service.app import create_app
+from service.http.connections import BoundedConnection
 from service.http.dependencies import Services
 from service.jobs.describing import Describe
 from service.library import Library
 from service.settings import Settings
+from soak.wire import Address
 from tests.fakes import describe_quickly, fake_signatures
 from worker.parameters import Parameters
 
@@ -31,6 +33,7 @@ def settings_for(folder: Path, **changes: Any) -> Settings:
         "port": 0,
         "poll_seconds": 0.05,
         "job_memory_bytes": 2 * 2**30,
+        "reserve_bytes": 2**20,
         "workers": 2,
     }
     return Settings(**{**quick, **changes})
@@ -51,6 +54,11 @@ class Serving:
 
     def __init__(self, services: Services, client: httpx.Client) -> None:
         self.library, self.turnstile, self.client = services.library, services.turnstile, client
+
+    @property
+    def address(self) -> Address:
+        """Where it listens."""
+        return Address(host=self.client.base_url.host, port=self.client.base_url.port or 80)
 
     def add(self, files: dict[str, bytes], wait: float = 60, **fields: str) -> httpx.Response:
         """Upload files."""
@@ -82,10 +90,11 @@ def serving(
     settings: Settings,
     describe: Describe = describe_quickly,
     open_library: Callable[[Settings], Library] = open_fake_library,
+    connection: type[BoundedConnection] = BoundedConnection,
 ) -> Iterator[Serving]:
     """Run the service; stop it cleanly at the end."""
     app = create_app(settings, open_library=open_library, describe=describe)
-    config = uvicorn.Config(app, port=0, log_config=None, timeout_graceful_shutdown=5)
+    config = uvicorn.Config(app, http=connection, port=0, log_config=None, timeout_graceful_shutdown=5)
     server = uvicorn.Server(config)
     thread = threading.Thread(target=server.run)
     thread.start()

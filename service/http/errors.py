@@ -13,6 +13,7 @@ from starlette.responses import JSONResponse
 from index import errors as kept
 from service.http.guards import CrossOrigin, ForeignHost, ReadOnlyKey
 from service.http.problems import plain_problem, problem
+from service.http.slow_bodies import SlowBody
 from service.http.turnstile import TooBusy
 from service.http.upload_rate import TooManyUploads
 from service.intake.fields import BadField
@@ -24,7 +25,7 @@ from service.intake.multipart import (
     TooManyFiles,
     UploadRefused,
 )
-from service.intake.uploads import BodyTooLarge, SlowBody
+from service.intake.uploads import BodyTooLarge
 from service.jobs.child import ChildError
 from service.jobs.pool import ChildDied, PoolStopped
 from service.jobs.recording import GAVE_UP, UNEXPECTED, UNEXPECTED_DETAIL

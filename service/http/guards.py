@@ -1,6 +1,6 @@
 """Who may call, and for what: API keys and their scopes, and no pages of other sites."""
 
-from urllib.parse import urlsplit
+from urllib.parse import SplitResult, urlsplit
 
 from fastapi import Request
 from fastapi.security import HTTPAuthorizationCredentials, HTTPBearer
@@ -48,7 +48,7 @@ def check_host(request: Request) -> None:
     ForeignHost
     """
     host = request.headers.get("host", "")
-    if not is_loopback(urlsplit(f"//{host}").hostname or ""):
+    if not is_loopback(_split(f"//{host}").hostname or ""):
         raise ForeignHost(
             f"without keys the service answers to 127.0.0.1 and localhost only, not to {host[:100]!r}; "
             "make a key with `faience key create`, or start the service with --insecure"
@@ -97,8 +97,16 @@ def check_origin(request: Request) -> None:
     origin = request.headers.get("origin")
     if request.method in SAFE_METHODS or origin is None:
         return
-    if urlsplit(origin).netloc != request.headers.get("host"):
+    if _split(origin).netloc != request.headers.get("host"):
         raise CrossOrigin(f"a page of {origin[:100]} may not change this library")
+
+
+def _split(address: str) -> SplitResult:
+    """Take an address apart; what is none has no parts, so that no guard lets it pass."""
+    try:
+        return urlsplit(address)
+    except ValueError:
+        return urlsplit("")
 
 
 def _changes(request: Request) -> bool:

@@ -13,8 +13,11 @@ PLAIN_CODES = {
     400: "bad_request",
     404: "not_found",
     405: "method_not_allowed",
+    408: "slow_request",
     413: "body_too_large",
     416: "range_not_satisfiable",
+    431: "headers_too_large",
+    503: "busy",
 }
 
 

@@ -1,7 +1,6 @@
 """A request's body becomes a `Submission` in a temporary folder, or a refusal that leaves nothing behind."""
 
 import contextlib
-import time
 from collections.abc import AsyncIterator
 from pathlib import Path
 
@@ -22,12 +21,6 @@ class BodyTooLarge(UploadRefused):
     """The body is longer than one upload may be."""
 
     code = "body_too_large"
-
-
-class SlowBody(UploadRefused):
-    """The body came too slowly."""
-
-    code = "slow_body"
 
 
 class NoFiles(UploadRefused):
@@ -63,7 +56,10 @@ async def _receive(request: Request, folder: Path, settings: Settings) -> FormRe
     limits = FormLimits(files=settings.max_files, field_bytes=settings.max_field_bytes)
     receiver = FormReceiver(request.headers.get("content-type", ""), folder, limits)
     try:
-        async for chunk in _chunks(request, settings):
+        size = 0
+        async for chunk in request.stream():
+            size += len(chunk)
+            _check_size(size, settings)
             await to_thread.run_sync(receiver.write, chunk)
         receiver.finish()
     except ClientDisconnect as error:
@@ -71,25 +67,6 @@ async def _receive(request: Request, folder: Path, settings: Settings) -> FormRe
     finally:
         receiver.close()
     return receiver
-
-
-async def _chunks(request: Request, settings: Settings) -> AsyncIterator[bytes]:
-    """Yield the body's pieces while it keeps to its size and its deadlines."""
-    stream = request.stream()
-    deadline = time.monotonic() + settings.body_seconds
-    size = 0
-    while True:
-        patience = min(settings.body_idle_seconds, deadline - time.monotonic())
-        try:
-            with anyio.fail_after(max(patience, 0)):
-                chunk = await anext(stream)
-        except StopAsyncIteration:
-            return
-        except TimeoutError as error:
-            raise SlowBody(f"the body came too slowly; {size} bytes had arrived") from error
-        size += len(chunk)
-        _check_size(size, settings)
-        yield chunk
 
 
 def _check_size(size: int, settings: Settings) -> None:
