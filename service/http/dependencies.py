@@ -51,6 +51,8 @@ async def guard(
     request: Request, credentials: Annotated[HTTPAuthorizationCredentials | None, Depends(bearer)]
 ) -> None:
     """Let in who holds a key that allows this, and no pages of other sites; `request.state.holder` is who."""
+    if hasattr(request.state, "holder"):  # let in already: an upload is counted once
+        return
     opened = await services(request)
     if not opened.keys.demanded and not opened.library.settings.insecure:
         check_host(request)

@@ -8,6 +8,7 @@ from fastapi import APIRouter, Query, Request, Response
 
 from index.shapes import Shape, Status
 from service.http.dependencies import LibraryPart, ServicesPart
+from service.http.guard_first import GuardFirst
 from service.http.openapi import form_body, problems
 from service.http.schemas import ShapeChange, ShapeModel, ShapesModel
 from service.intake.fields import check_metadata, check_name
@@ -15,7 +16,7 @@ from service.intake.uploads import receiving
 from service.library import Library
 from service.retrieval import accept_upload, change_shape, remove_shape
 
-router = APIRouter(tags=["shapes"])
+router = APIRouter(tags=["shapes"], route_class=GuardFirst)
 
 LONGEST_WAIT = 300  # seconds
 LOOK_EVERY = 0.1  # seconds, while waiting
