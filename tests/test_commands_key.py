@@ -1,14 +1,17 @@
 """`faience key`: a key is shown once, listed without its secret, and revoked for good."""
 
+import signal
 from pathlib import Path
 
+import httpx
 import pytest
 
 from index.database import make_engine
 from index.keys import Keys
 from index.scopes import Scope
 from service.settings import Settings
-from tests.commanding import json_lines, plain_line, run
+from tests.commanding import json_lines, plain_line, run, start
+from tests.serving import wait_until
 
 
 def active_in(folder: Path) -> dict[str, Scope]:
@@ -92,3 +95,24 @@ def test_an_unknown_scope_is_refused(tmp_path: Path) -> None:
     result = run("key", "create", "x", "--scope", "all", "--data-dir", tmp_path / "lib")
     assert result.exit_code == 2
     assert not (tmp_path / "lib").exists()
+
+
+def test_a_running_service_follows_and_tells_no_key(tmp_path: Path) -> None:
+    with start("serve", "--port", "0", "--workers", "0", "--data-dir", tmp_path) as process:
+        assert process.stdout is not None
+        address = process.stdout.readline().split("at ")[1].split()[0]
+
+        def status(secret: str | None = None) -> int:
+            header = {"authorization": f"Bearer {secret}"} if secret else {}
+            return httpx.get(f"{address}/v1/methods", headers=header, timeout=60).status_code
+
+        assert status() == 200  # open, for this machine alone
+        made = created(tmp_path, "reader")
+        wait_until(lambda: status() == 401)
+        assert status(made["key"]) == 200
+        run("key", "revoke", made["id"], "--data-dir", tmp_path)
+        wait_until(lambda: status(made["key"]) == 401)
+        assert status() == 401
+        process.send_signal(signal.SIGTERM)
+        output = "".join(process.communicate(timeout=120))
+    assert made["key"].split("_", 2)[2] not in output

@@ -8,8 +8,10 @@ from pathlib import Path
 import httpx
 import pytest
 
+from service import server
 from service.commands.failures import CommandFailed
 from service.commands.serve import check_address
+from service.settings import Settings
 from tests.commanding import plain_line, run, start
 
 
@@ -38,6 +40,23 @@ def test_listening_to_all_without_a_key_is_refused(tmp_path: Path, monkeypatch: 
     result = run("serve", "--host", "0.0.0.0", "--port", 0, "--data-dir", tmp_path / "lib")  # noqa: S104 - refused
     assert result.exit_code == 1
     assert "without a key" in plain_line(result)
+
+
+def test_listening_to_all_is_refused_before_a_library_is_made_and_goes_with_a_key_of_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delenv("FAIENCE_API_KEYS", raising=False)
+    started: list[Settings] = []
+    monkeypatch.setattr(server, "run_server", lambda settings, *_: started.append(settings))
+    folder = tmp_path / "lib"
+    arguments = "serve", "--host", "0.0.0.0", "--port", 0, "--data-dir", folder  # noqa: S104 - not started
+    result = run(*arguments)
+    assert (result.exit_code, started) == (1, [])
+    assert "faience key create" in plain_line(result)
+    assert not folder.exists()
+    run("key", "create", "loan desk", "--data-dir", folder)
+    assert run(*arguments).exit_code == 0
+    assert [settings.data_dir for settings in started] == [folder]
 
 
 @pytest.mark.parametrize("command", ["serve", "worker"])
