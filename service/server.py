@@ -9,6 +9,7 @@ import uvicorn
 from fastapi import FastAPI
 
 from service.app import child_limits, create_app
+from service.file_limit import raise_file_limit
 from service.first_run import Report, show_samples
 from service.http.connections import BoundedConnection
 from service.jobs.pool import ProcessPerJob
@@ -43,6 +44,7 @@ def run_server(settings: Settings, workers: int, samples: bool, report: Report =
     settings = settings.model_copy(update={"workers": workers})
     check_listening(settings)
     _log_to_console()
+    raise_file_limit()
     app = create_app(settings)
     server = uvicorn.Server(_config(app, settings))
     threading.Thread(target=_accompany, args=(app, server, samples, report), daemon=True).start()

@@ -8,6 +8,7 @@ import h11
 from starlette.responses import Response
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
+from service.file_limit import file_limit
 from service.http.problems import plain_problem
 
 
@@ -22,7 +23,7 @@ class BoundedConnection(H11Protocol):
     head_seconds = 20.0  # from the first moment, or the last answer, to the end of a request's head
     deaf_seconds = 60.0  # longest time in which the client takes nothing of an answer
     linger_seconds = 2.0  # in which a refused client may read why
-    most = 1000  # connections at the same time
+    most = 1000  # connections at the same time, where the process may open four times as many files
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override] # as uvicorn's
         """Start the first clock; where there are too many connections, one that is idle has to go."""
@@ -32,7 +33,7 @@ class BoundedConnection(H11Protocol):
         self._head_clock: asyncio.TimerHandle | None = None
         self._deaf_clock: asyncio.TimerHandle | None = None
         self._mind_head()
-        if len(self.connections) > self.most:
+        if len(self.connections) > min(self.most, file_limit() // 4):
             self._make_room()
 
     def connection_lost(self, exc: Exception | None) -> None:
@@ -97,7 +98,8 @@ class BoundedConnection(H11Protocol):
     def _make_room(self) -> None:
         """Close the connection that has waited longest for a request; this one, if all others are at work."""
         others = (each for each in self.connections if isinstance(each, BoundedConnection))
-        waiting = (each for each in others if each.idle and each is not self)
+        open_ones = (each for each in others if not each.transport.is_closing())
+        waiting = (each for each in open_ones if each.idle and each is not self)
         oldest = min(waiting, key=BoundedConnection.deadline, default=None)
         if oldest is None:
             self._refuse(HTTPStatus.SERVICE_UNAVAILABLE)
