@@ -18,7 +18,7 @@ from index.errors import CatalogueBusy, StorageFull
 
 SCRIPTS = files("index") / "migrations"  # Alembic's steps
 
-_BUSY_SECONDS = 30  # how long a writer waits for another
+_BUSY_SECONDS = 15  # how long a writer waits for another
 _CONNECTIONS = 90  # beyond the first ten: one for each thread of a busy service
 _WRITES = "faience_writes"  # execution option of connections that are going to write
 

@@ -33,6 +33,7 @@ from service.settings import Settings
 
 OpenLibrary = Callable[[Settings], Library]
 RANKINGS = 2 * (os.cpu_count() or 1)  # threads that rank: more would only take turns
+WRITINGS = 16  # threads that write: a catalogue that another process locks makes all of them wait
 
 
 def create_app(
@@ -122,6 +123,7 @@ def _services(
             uploads=UploadRate(settings.uploads_per_minute),
             searches=searches,
             rankings=CapacityLimiter(RANKINGS),
+            writings=CapacityLimiter(WRITINGS),
             turnstile=Turnstile(settings.search_slots + settings.search_queue),
             metrics=metrics,
             notify=notify,

@@ -13,9 +13,13 @@ from index.queue import Queue
 from index.searcher import Searcher
 from index.vocabulary import Vocabulary, default_vocabulary
 from service.intake.incoming import Incoming
+from service.reserve import Reserve
 from service.settings import Settings
 from worker.parameters import Parameters
 from worker.reading.limits import Limits
+
+MIB = 2**20
+RESERVED = 4  # the part of the space left by uploads that is held by a file, out of reach of other programs
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -28,6 +32,7 @@ class Library:
     queue: Queue
     files: FileStore  # what was uploaded and what was made of it
     incoming: Incoming  # temporary files of uploads
+    reserve: Reserve  # room to remove things on a full disk
     searcher: Searcher
     parameters: Parameters  # of every description in this library
     limits: Limits  # on what is read
@@ -63,13 +68,14 @@ class Library:
             queue=Queue(engine),
             files=FileStore(folder / "files"),
             incoming=Incoming(folder / "incoming"),
+            reserve=Reserve(folder / "reserve", settings.reserve_bytes // RESERVED),
             searcher=Searcher(catalogue, folder / "index"),
             parameters=parameters,
             limits=limits or Limits(),
         )
 
     def check_space(self, size: int) -> None:
-        """Keep a reserve on the disk, so that a full one can still be emptied.
+        """Leave room on the disk for what makes room, and see that the reserve is there.
 
         Parameters
         ----------
@@ -82,7 +88,11 @@ class Library:
         """
         free = shutil.disk_usage(self.settings.data_dir).free
         if free < self.settings.reserve_bytes + 2 * size:
-            raise StorageFull(f"{free} bytes are free, too few for an upload of {size} bytes")
+            raise StorageFull(
+                f"{free / MIB:.1f} MiB of the disk are free; {2 * size / MIB:.1f} are needed for this, "
+                f"beside {self.settings.reserve_bytes / MIB:.1f} that are left for removals"
+            )
+        self.reserve.fill()
 
     def close(self) -> None:
         """Save what is only a cache and let go of the rest."""

@@ -73,6 +73,7 @@ def accept_upload(library: Library, submission: Submission) -> tuple[Shape, bool
     known = library.catalogue.find_content(digest)
     if known is not None and known.status != Status.FAILED:
         return known, False
+    library.check_space(sum(file.size for file in submission.files))
     inspect_upload(submission.upload(), library.limits)
     upload_id = uuid.uuid4().hex
     try:
@@ -168,9 +169,10 @@ def change_shape(
 
 def remove_shape(library: Library, shape_id: str) -> None:
     """Forget a shape, then delete its files; `service.jobs.sweeping` ends what a crash leaves half done."""
-    files = library.catalogue.remove(shape_id)
+    files = library.reserve.despite_full_disk(lambda: library.catalogue.remove(shape_id))
     _delete_files(library, files)
     library.files.delete_all(f"shapes/{shape_id}")
+    library.reserve.fill()
 
 
 def check_question(question: Question) -> None:

@@ -31,6 +31,7 @@ class Services:
     searches: Executor  # describes meshes that are not kept
     turnstile: Turnstile  # before it
     rankings: CapacityLimiter  # threads that rank at the same time
+    writings: CapacityLimiter  # threads that wait to write: those that read are never all taken
     metrics: Metrics
     notify: Callable[[], None]  # tells the embedded worker, if there is one, of a new job
     describe: Describe  # what a child does with an upload

@@ -80,6 +80,7 @@ class Worker:
         self._running: dict[Future[Described], Attempt] = {}
         self._wake, self._stopping = threading.Event(), threading.Event()
         self._next_heartbeat = 0.0
+        self._waiting = False  # for room on the disk
 
     def run(self) -> None:
         """Clean up after crashes, then work until `stop`; give back what is unfinished."""
@@ -118,12 +119,24 @@ class Worker:
         self._heartbeat()
 
     def _claim(self) -> None:
-        while len(self._running) < self._slots + AHEAD and not self._stopping.is_set():
+        while len(self._running) < self._slots + AHEAD and not self._stopping.is_set() and self._has_room():
             job = self._library.queue.claim(self._name, self._library.settings.lease_seconds)
             if job is None:
                 return
             self._submit(job, tries=1)
             self._heartbeat()  # an executor may take its time
+
+    def _has_room(self) -> bool:
+        """Return whether results can be stored: jobs wait, and lose no attempt, while the disk is full."""
+        try:
+            self._library.check_space(0)
+        except StorageFull as error:
+            if not self._waiting:
+                log.warning("jobs wait: %s", error)
+            self._waiting = True
+            return False
+        self._waiting = False
+        return True
 
     def _submit(self, job: Job, tries: int) -> None:
         library = self._library
@@ -166,7 +179,7 @@ class Worker:
             return
         except (StorageFull, CatalogueBusy) as error:
             log.warning("shape %s waits: %s", attempt.job.shape_id, error)
-            self._library.queue.give_back(attempt.job)
+            self._hand_back(attempt.job)
             self._stopping.wait(self._library.settings.lease_seconds / 3)
             return
         if outcome is not None:
@@ -180,7 +193,7 @@ class Worker:
         except MeshError as error:
             return self._fail(job, error.code, error.detail)
         except PoolStopped:
-            self._library.queue.give_back(job)
+            self._hand_back(job)
             return None
         except ChildDied as error:
             return self._retry(attempt, str(error))
@@ -211,12 +224,17 @@ class Worker:
             except LeaseLost:
                 future.cancel()
                 del self._running[future]
+            except (StorageFull, CatalogueBusy) as error:
+                log.warning("the lease of job %s could not be prolonged: %s", attempt.job.id, error)
+
+    def _hand_back(self, job: Job) -> None:
+        self._library.reserve.despite_full_disk(lambda: self._library.queue.give_back(job))
 
     def _give_back(self) -> None:
         for future, attempt in self._running.items():
             future.cancel()
             try:
-                self._library.queue.give_back(attempt.job)
+                self._hand_back(attempt.job)
             except Exception:
                 log.exception("job %s could not be given back; its lease will run out", attempt.job.id)
         self._running.clear()

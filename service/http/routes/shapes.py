@@ -1,15 +1,18 @@
 """Shapes: add, list, look at, change, remove."""
 
+from functools import partial
 from typing import Annotated, Any
 
 import anyio
 from anyio import to_thread
 from fastapi import APIRouter, Query, Request, Response
 
+from index.errors import BadCursor
 from index.shapes import Shape, Status
 from service.http.dependencies import LibraryPart, ServicesPart
 from service.http.guard_first import GuardFirst
 from service.http.openapi import form_body, problems
+from service.http.reasons import CHANGING, DETAILS, ONE_SHAPE, READING, UPLOAD
 from service.http.schemas import ShapeChange, ShapeModel, ShapesModel
 from service.intake.fields import check_metadata, check_name
 from service.intake.uploads import receiving
@@ -38,7 +41,7 @@ ADDED: dict[int | str, dict[str, Any]] = {
     operation_id="addShape",
     summary="Add a shape",
     status_code=202,
-    responses=ADDED | problems(400, 401, 403, 408, 413, 415, 429, 503, 507),
+    responses=ADDED | problems(*CHANGING, *UPLOAD),
     openapi_extra=form_body(details=True),
 )
 async def add_shape(
@@ -50,7 +53,9 @@ async def add_shape(
     `failed` later, with the same codes.
     """
     async with receiving(request, services.library) as submission:
-        shape, new = await to_thread.run_sync(accept_upload, services.library, submission)
+        shape, new = await to_thread.run_sync(
+            accept_upload, services.library, submission, limiter=services.writings
+        )
     if new:
         services.notify()
     shape = await _settled(services.library, shape, wait)
@@ -72,7 +77,7 @@ async def _settled(library: Library, shape: Shape, seconds: float) -> Shape:
     "/shapes",
     operation_id="listShapes",
     summary="List shapes",
-    responses=problems(401, 503),
+    responses=problems(*READING, BadCursor),
 )
 def list_shapes(
     library: LibraryPart,
@@ -86,7 +91,10 @@ def list_shapes(
 
 
 @router.get(
-    "/shapes/{shape_id}", operation_id="getShape", summary="One shape", responses=problems(401, 404, 503)
+    "/shapes/{shape_id}",
+    operation_id="getShape",
+    summary="One shape",
+    responses=problems(*READING, *ONE_SHAPE),
 )
 def get_shape(library: LibraryPart, shape_id: str) -> ShapeModel:
     """Return a shape."""
@@ -97,14 +105,15 @@ def get_shape(library: LibraryPart, shape_id: str) -> ShapeModel:
     "/shapes/{shape_id}",
     operation_id="changeShape",
     summary="Rename a shape or replace its metadata",
-    responses=problems(400, 401, 403, 404, 413, 503, 507),
+    responses=problems(*CHANGING, *ONE_SHAPE, *DETAILS),
     max_body_size=CHANGE_BYTES,
 )
-def change(library: LibraryPart, shape_id: str, body: ShapeChange) -> ShapeModel:
+async def change(services: ServicesPart, shape_id: str, body: ShapeChange) -> ShapeModel:
     """Change what is given; leave the rest."""
     name = check_name(body.name) if body.name is not None else None
     metadata = check_metadata(body.metadata) if body.metadata is not None else None
-    return ShapeModel.of(change_shape(library, shape_id, name=name, metadata=metadata))
+    act = partial(change_shape, services.library, shape_id, name=name, metadata=metadata)
+    return ShapeModel.of(await to_thread.run_sync(act, limiter=services.writings))
 
 
 @router.delete(
@@ -112,8 +121,8 @@ def change(library: LibraryPart, shape_id: str, body: ShapeChange) -> ShapeModel
     operation_id="removeShape",
     summary="Remove a shape and its files",
     status_code=204,
-    responses=problems(401, 403, 404, 503),
+    responses=problems(*CHANGING, *ONE_SHAPE),
 )
-def remove(library: LibraryPart, shape_id: str) -> None:
+async def remove(services: ServicesPart, shape_id: str) -> None:
     """Forget a shape; its files are deleted."""
-    remove_shape(library, shape_id)
+    await to_thread.run_sync(remove_shape, services.library, shape_id, limiter=services.writings)
