@@ -4,7 +4,7 @@ from alembic.util import CommandError
 from pydantic import ValidationError
 from sqlalchemy.exc import SQLAlchemyError
 
-from index.errors import CatalogueError
+from index.errors import CatalogueError, ExportRefused
 from service.jobs.pool import ChildDied, PoolStopped
 from service.listening import UnsafeListening
 from service.vocabularies import NoVocabulary
@@ -15,6 +15,8 @@ PLAIN = (CatalogueError, NoVocabulary, UnsafeListening, ChildDied, PoolStopped) 
 
 def explain(error: Exception) -> str | None:
     """Return what an exception means for the user, or None for a defect of our own."""
+    if isinstance(error, ExportRefused):
+        return f"{error} ({error.code})"
     if isinstance(error, PLAIN):
         return str(error)
     if isinstance(error, MeshError):

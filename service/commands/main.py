@@ -9,7 +9,9 @@ import typer
 from typer.exceptions import TyperException
 
 from service.commands.evaluate import evaluate
+from service.commands.export import export
 from service.commands.failures import STOPPED, say
+from service.commands.importing import import_file
 from service.commands.index import index
 from service.commands.key import key
 from service.commands.search import search
@@ -24,8 +26,9 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,  # a defect keeps its plain traceback, for a report
 )
-for command in (serve, worker, index, search, evaluate):
+for command in (serve, worker, index, search, evaluate, export):
     app.command()(command)
+app.command("import")(import_file)
 app.command("learn-vocabulary")(learn_vocabulary)
 app.add_typer(key)
 

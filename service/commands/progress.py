@@ -14,7 +14,7 @@ def progress_bar(title: str, total: int | None) -> Iterator[Callable[..., None]]
     Yields
     ------
     callable
-        Takes the new ``completed`` and ``total`` by name; without them it goes one step on.
+        Takes the new ``completed``, ``total`` and ``title`` by name; without them it goes one step on.
     """
     columns = (
         TextColumn("{task.description}"),
@@ -25,10 +25,10 @@ def progress_bar(title: str, total: int | None) -> Iterator[Callable[..., None]]
     with Progress(*columns, console=Console(stderr=True)) as progress:
         task = progress.add_task(title, total=total)
 
-        def advance(completed: int | None = None, total: int | None = None) -> None:
+        def advance(completed: int | None = None, total: int | None = None, title: str | None = None) -> None:
             if completed is None:
                 progress.advance(task)
             else:
-                progress.update(task, completed=completed, total=total)
+                progress.update(task, completed=completed, total=total, description=title)
 
         yield advance
