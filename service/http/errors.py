@@ -84,6 +84,7 @@ DETAILS: dict[type[Exception], str] = {
     OperationalError: "try again in a moment",
     ChildError: UNEXPECTED_DETAIL,
 }
+INVALID_REQUEST, INTERNAL_ERROR = "invalid_request", "internal_error"  # for what is no class of ours
 FULL = {errno.ENOSPC, errno.EDQUOT}
 
 
@@ -115,7 +116,7 @@ def _invalid(_: Request, error: Exception) -> JSONResponse:
     parts = [{"where": ".".join(map(str, part["loc"])), "what": part["msg"]} for part in found]
     detail = "; ".join(f"{part['where']}: {part['what']}" for part in parts[:5]) or "the request is not valid"
     status, title = HTTPStatus.UNPROCESSABLE_ENTITY, "The request is not valid"
-    return problem(status, code="invalid_request", title=title, detail=detail, errors=parts)
+    return problem(status, code=INVALID_REQUEST, title=title, detail=detail, errors=parts)
 
 
 def _http(_: Request, error: Exception) -> JSONResponse:
@@ -138,4 +139,4 @@ def unexpected(request: Request, error: Exception) -> JSONResponse:
     log.error("%s %s failed", request.method, request.url.path, exc_info=error)
     status, title = HTTPStatus.INTERNAL_SERVER_ERROR, "Something went wrong here"
     detail = "the service's log says more; the request can be tried again"
-    return problem(status, code="internal_error", title=title, detail=detail)
+    return problem(status, code=INTERNAL_ERROR, title=title, detail=detail)

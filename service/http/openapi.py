@@ -6,7 +6,9 @@ from typing import Any
 from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
 
+from service.http.meanings import MEANINGS
 from service.http.problems import MEDIA_TYPE
+from service.http.reasons import EVERY, KEYS, Reason, all_codes, by_status
 from service.http.schemas import ProblemModel
 
 SUMMARY = "Search engine for coloured 3D shapes"
@@ -33,6 +35,17 @@ FORM: dict[str, Any] = {
         }
     },
 }
+RETRY_AFTER = {
+    "description": "seconds after which to try again",
+    "required": True,
+    "schema": {"type": "integer", "minimum": 1},
+}
+CHALLENGE = {"description": "how to send a key", "required": True, "schema": {"type": "string"}}
+HEADERS: dict[int, dict[str, Any]] = {
+    401: {"WWW-Authenticate": CHALLENGE},
+    429: {"Retry-After": RETRY_AFTER},
+    503: {"Retry-After": RETRY_AFTER},
+}
 DETAILS: dict[str, Any] = {
     "name": {"type": "string", "description": "default: the stem of the mesh file"},
     "metadata": {"type": "string", "description": "a JSON object", "examples": ['{"period": "archaic"}']},
@@ -57,22 +70,49 @@ def form_body(*, details: bool) -> dict[str, Any]:
     return {"requestBody": {"required": True, "content": {"multipart/form-data": {"schema": schema}}}}
 
 
-def problems(*statuses: int) -> dict[int | str, dict[str, Any]]:
-    """Return the description of the errors that a call may answer, next to those of every call."""
-    schema = {"$ref": "#/components/schemas/ProblemModel"}
+def problems(*reasons: Reason) -> dict[int | str, dict[str, Any]]:
+    """Return the description of the errors that a call may answer, next to those of every call.
+
+    Parameters
+    ----------
+    *reasons
+        Families of `service.http.reasons`, unpacked.
+    """
+    return {status: _problem(status, codes) for status, codes in by_status((*EVERY, *reasons)).items()}
+
+
+def _problem(status: int, codes: list[str]) -> dict[str, Any]:
+    """Return the description of the problems with one status."""
+    names = ", ".join(f"`{code}`" for code in codes)
+    own = {"properties": {"status": {"const": status}, "code": {"enum": codes}}}
+    schema = {"allOf": [{"$ref": "#/components/schemas/ProblemModel"}, own]}
     return {
-        status: {"description": HTTPStatus(status).phrase, "content": {MEDIA_TYPE: {"schema": schema}}}
-        for status in sorted({*statuses, 422, 500})
+        "description": f"{HTTPStatus(status).phrase}: {names}",
+        "content": {MEDIA_TYPE: {"schema": schema}},
+        **({"headers": HEADERS[status]} if status in HEADERS else {}),
     }
 
 
-GUARDED = problems(401, 403, 503)  # of every call that asks for a key
+GUARDED = problems(*KEYS)  # of every call that asks for a key
 
 
 def binary(media_type: str, description: str) -> dict[int | str, dict[str, Any]]:
     """Return the description of an answer that is a file."""
-    schema = {"type": "string", "format": "binary"}
-    return {200: {"description": description, "content": {media_type: {"schema": schema}}}}
+    content = {"schema": {"type": "string", "format": "binary"}}
+    return {
+        200: {"description": description, "content": {media_type: content}},
+        206: {
+            "description": f"{description}: the part that `Range` asks for",
+            "content": {media_type: content, "multipart/byteranges": content},
+        },
+    }
+
+
+def _all_codes() -> dict[str, Any]:
+    """Return the description of the codes of all problems, with what each means."""
+    codes = sorted({code for codes in all_codes().values() for code in codes})
+    meanings = "\n".join(f"* `{code}`: {MEANINGS[code]}" for code in codes)
+    return {"type": "string", "enum": codes, "description": f"stable; one of\n\n{meanings}"}
 
 
 def describe_interface(app: FastAPI) -> None:
@@ -89,6 +129,7 @@ def describe_interface(app: FastAPI) -> None:
             )
             models = schema.setdefault("components", {}).setdefault("schemas", {})
             models["ProblemModel"] = ProblemModel.model_json_schema()
+            models["ProblemModel"]["properties"]["code"] = _all_codes()
             app.openapi_schema = schema
         return app.openapi_schema
 

@@ -8,6 +8,7 @@ from pydantic.config import JsonDict
 
 from index.methods import Method
 from index.shapes import Page, Shape, Status, StoredFile
+from service.http.reasons import FAILURES
 from service.retrieval import Answer, Hit
 from worker.describe import MeshFacts
 
@@ -51,7 +52,10 @@ class MeshModel(BaseModel):
 class FailureModel(BaseModel):
     """Why a shape failed."""
 
-    code: str
+    code: str = Field(
+        description="stable; the same codes as in a reply that refuses a mesh",
+        json_schema_extra={"enum": list(FAILURES)},
+    )
     detail: str
 
 

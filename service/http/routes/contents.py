@@ -9,6 +9,7 @@ from index.errors import FileMissing
 from service.descriptors import shape_numbers
 from service.http.dependencies import LibraryPart
 from service.http.openapi import binary, problems
+from service.http.reasons import FILE, NUMBERS, ONE_SHAPE, READING
 from service.http.schemas import DescriptorsModel
 from service.library import Library
 from service.storage import PREVIEW, THUMBNAIL, derived_key
@@ -24,7 +25,7 @@ SANDBOX = {"Content-Security-Policy": "default-src 'none'; sandbox", "Cache-Cont
     operation_id="downloadFile",
     summary="A file as it was uploaded",
     response_class=FileResponse,
-    responses=binary("application/octet-stream", "the file") | problems(401, 404, 503),
+    responses=binary("application/octet-stream", "the file") | problems(*READING, *ONE_SHAPE, *FILE),
 )
 def download(library: LibraryPart, shape_id: str, name: str) -> FileResponse:
     """Return the bytes; browsers are told to save them, never to show them."""
@@ -44,7 +45,7 @@ def download(library: LibraryPart, shape_id: str, name: str) -> FileResponse:
     operation_id="getThumbnail",
     summary="A picture",
     response_class=FileResponse,
-    responses=binary("image/png", "the picture") | problems(401, 404, 503),
+    responses=binary("image/png", "the picture") | problems(*READING, *ONE_SHAPE, *FILE),
 )
 def thumbnail(library: LibraryPart, shape_id: str) -> FileResponse:
     """Return a picture of a ready shape on a transparent background."""
@@ -56,7 +57,8 @@ def thumbnail(library: LibraryPart, shape_id: str) -> FileResponse:
     operation_id="getPreview",
     summary="A small mesh for viewers",
     response_class=FileResponse,
-    responses=binary("model/gltf-binary", "the mesh, with vertex colours") | problems(401, 404, 503),
+    responses=binary("model/gltf-binary", "the mesh, with vertex colours")
+    | problems(*READING, *ONE_SHAPE, *FILE),
 )
 def preview(library: LibraryPart, shape_id: str) -> FileResponse:
     """Return a small coloured mesh of a ready shape."""
@@ -67,7 +69,7 @@ def preview(library: LibraryPart, shape_id: str) -> FileResponse:
     "/shapes/{shape_id}/descriptors",
     operation_id="getDescriptors",
     summary="The numbers that are compared",
-    responses=problems(401, 404, 409, 503),
+    responses=problems(*READING, *ONE_SHAPE, *NUMBERS),
 )
 def descriptors(library: LibraryPart, shape_id: str) -> DescriptorsModel:
     """Return the blocks of a ready shape under the active vocabulary, and its eigenvalues."""

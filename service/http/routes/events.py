@@ -13,6 +13,7 @@ from sse_starlette import EventSourceResponse, ServerSentEvent
 
 from service.http.dependencies import ServicesPart
 from service.http.openapi import problems
+from service.http.reasons import READING
 from service.http.schemas import ShapeModel
 from service.library import Library
 
@@ -32,7 +33,7 @@ STREAM: dict[int | str, dict[str, Any]] = {
     operation_id="watchShapes",
     summary="Shapes changing state, as they do",
     response_class=EventSourceResponse,
-    responses=STREAM | problems(401, 503),
+    responses=STREAM | problems(*READING),
 )
 async def watch(
     request: Request,

@@ -6,7 +6,8 @@ from pydantic import BaseModel
 from starlette.responses import Response
 
 from service.http.dependencies import LibraryPart, ServicesPart, guard
-from service.http.openapi import GUARDED, problems
+from service.http.openapi import problems
+from service.http.reasons import CATALOGUE, KEYS
 
 router = APIRouter(tags=["health"])
 
@@ -17,14 +18,14 @@ class Health(BaseModel):
     status: str
 
 
-@router.get("/livez", operation_id="live", summary="Whether the process answers")
+@router.get("/livez", operation_id="live", summary="Whether the process answers", responses=problems())
 def live() -> Health:
     """Answer without touching anything."""
     return Health(status="ok")
 
 
 @router.get(
-    "/readyz", operation_id="ready", summary="Whether requests can be served", responses=problems(503)
+    "/readyz", operation_id="ready", summary="Whether requests can be served", responses=problems(*CATALOGUE)
 )
 def ready(library: LibraryPart) -> Health:
     """Ask the catalogue one question."""
@@ -38,7 +39,8 @@ def ready(library: LibraryPart) -> Health:
     summary="Numbers for Prometheus",
     response_class=Response,
     dependencies=[Depends(guard)],
-    responses=GUARDED | {200: {"content": {"text/plain": {"schema": {"type": "string"}}}}},
+    responses=problems(*KEYS, *CATALOGUE)
+    | {200: {"content": {"text/plain": {"schema": {"type": "string"}}}}},
 )
 def metrics(services: ServicesPart) -> Response:
     """Return counters of requests and jobs, and the state of the library."""

@@ -3,8 +3,10 @@
 from anyio import to_thread
 from fastapi import APIRouter, Request
 
+from index.errors import FileMissing, NotReady
 from service.http.dependencies import QuestionPart, Services, ServicesPart
 from service.http.openapi import form_body, problems
+from service.http.reasons import DESCRIBING, ONE_SHAPE, QUESTION, READING, UPLOAD
 from service.http.schemas import AnswerModel
 from service.intake.submissions import Submission
 from service.intake.uploads import receiving
@@ -17,7 +19,7 @@ router = APIRouter(tags=["search"])
     "/shapes/{shape_id}/similar",
     operation_id="findSimilar",
     summary="What is similar to a stored shape",
-    responses=problems(401, 404, 409, 503),
+    responses=problems(*READING, *ONE_SHAPE, *QUESTION, FileMissing, NotReady),
 )
 async def similar(services: ServicesPart, shape_id: str, question: QuestionPart) -> AnswerModel:
     """Rank the other shapes by their distance to this one."""
@@ -32,7 +34,7 @@ def _similar(services: Services, shape_id: str, question: Question) -> AnswerMod
     "/search",
     operation_id="searchByMesh",
     summary="What is similar to a mesh that is not kept",
-    responses=problems(400, 401, 403, 408, 409, 413, 415, 429, 503, 507),
+    responses=problems(*READING, *UPLOAD, *QUESTION, *DESCRIBING),
     openapi_extra=form_body(details=False),
 )
 async def search(request: Request, services: ServicesPart, question: QuestionPart) -> AnswerModel:
