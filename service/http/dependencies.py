@@ -9,7 +9,7 @@ from anyio import CapacityLimiter
 from fastapi import Depends, Query, Request
 from fastapi.security import HTTPAuthorizationCredentials
 
-from index.methods import DEFAULT_METHOD
+from index.methods import DEFAULT_METHOD, METHODS
 from service.http.guards import bearer, check_host, check_key, check_origin, check_rate
 from service.http.metrics import Metrics
 from service.http.turnstile import Turnstile
@@ -64,7 +64,9 @@ async def guard(
 
 
 async def question(
-    method: Annotated[str, Query(description="a name from /v1/methods")] = DEFAULT_METHOD,
+    method: Annotated[
+        str, Query(description="a name from /v1/methods", json_schema_extra={"enum": list(METHODS)})
+    ] = DEFAULT_METHOD,
     limit: Annotated[int, Query(ge=1, le=1000, description="results at most")] = 10,
     weights: Annotated[
         str | None,

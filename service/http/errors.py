@@ -11,6 +11,7 @@ from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse
 
 from index import errors as kept
+from service.http.allowed import allowed_methods
 from service.http.guards import CrossOrigin, ForeignHost, ReadOnlyKey
 from service.http.problems import plain_problem, problem
 from service.http.slow_bodies import SlowBody
@@ -119,11 +120,13 @@ def _invalid(_: Request, error: Exception) -> JSONResponse:
     return problem(status, code=INVALID_REQUEST, title=title, detail=detail, errors=parts)
 
 
-def _http(_: Request, error: Exception) -> JSONResponse:
+def _http(request: Request, error: Exception) -> JSONResponse:
     """Answer what the framework itself refuses: unknown paths, methods, unreadable bodies."""
     status = error.status_code if isinstance(error, HTTPException) else HTTPStatus.INTERNAL_SERVER_ERROR
     response = plain_problem(status)
     response.headers.update(getattr(error, "headers", None) or {})
+    if status == HTTPStatus.METHOD_NOT_ALLOWED:
+        response.headers["Allow"] = allowed_methods(request)
     return response
 
 

@@ -84,6 +84,6 @@ def by_status(reasons: Iterable[Reason]) -> dict[int, list[str]]:
 
 def all_codes() -> dict[int, list[str]]:
     """Return every code of the interface by status; what comes only with a failed shape is elsewhere."""
-    of_table: set[Reason] = set(TABLE) - {UploadRefused}  # never raised itself
+    of_table: set[Reason] = {kind for kind in TABLE if kind is not UploadRefused}  # never raised itself
     of_framework: set[Reason] = {*PLAIN_CODES, RequestValidationError, Exception}
     return by_status(of_table | of_framework | {*DETAILS, *UPLOAD, *QUESTION})
