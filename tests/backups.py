@@ -146,7 +146,7 @@ def forged(path: Path, change: Callable[[Parts], Parts | None]) -> Path:
     return write_parts(path.with_name("forged.tar"), with_sums(change(parts) or parts))
 
 
-def edited(data: bytes, line: int, **changes: Any) -> bytes:
+def edited(data: bytes, line: int, /, **changes: Any) -> bytes:
     """Return the rows of a table, one of them with other values."""
     rows = data.splitlines()
     rows[line] = json.dumps({**json.loads(rows[line]), **changes}).encode()
