@@ -14,7 +14,7 @@ from tests.fakes import coloured_triangle
 from tests.problems import problem
 from tests.serving import Serving, serving, settings_for, wait_until
 
-KEYS = (SecretStr("first-key"), SecretStr("second-key"))
+KEYS = (SecretStr("first-key"), SecretStr("second-key"), SecretStr("schlüssel"))
 
 
 @pytest.fixture(scope="module")
@@ -86,9 +86,10 @@ def test_every_call_of_the_interface_is_in_the_list_above_or_open(service: Servi
         assert ("429" in call["responses"]) == (name in [("POST", "/v1/shapes"), ("POST", "/v1/search")])
 
 
-@pytest.mark.parametrize("key", ["first-key", "second-key"])
+@pytest.mark.parametrize("key", [key.get_secret_value() for key in KEYS])
 def test_any_known_key_opens(service: Serving, key: str) -> None:
-    assert service.client.get("/v1/shapes", headers=bearing(key)).status_code == 200
+    header = [(b"authorization", f"Bearer {key}".encode())]
+    assert service.client.get("/v1/shapes", headers=header).status_code == 200
 
 
 @pytest.mark.parametrize("path", ["/livez", "/readyz", "/", "/docs", "/openapi.json", "/static/page.js"])
