@@ -1,7 +1,6 @@
 """Who asks with a wrong method is told all the right ones."""
 
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 

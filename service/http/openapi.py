@@ -10,6 +10,7 @@ from service.http.meanings import MEANINGS
 from service.http.problems import MEDIA_TYPE
 from service.http.reasons import EVERY, KEYS, Reason, all_codes, by_status
 from service.http.schemas import ProblemModel
+from service.intake.fields import FALSE, TRUE
 
 SUMMARY = "Search engine for coloured 3D shapes"
 DESCRIPTION = """\
@@ -50,8 +51,9 @@ DETAILS: dict[str, Any] = {
     "name": {"type": "string", "description": "default: the stem of the mesh file"},
     "metadata": {"type": "string", "description": "a JSON object", "examples": ['{"period": "archaic"}']},
     "allow_untextured": {
-        "type": "boolean",
-        "default": False,
+        "type": "string",
+        "enum": sorted(TRUE | FALSE),
+        "default": "false",
         "description": "accept a mesh whose MTL or images were not sent",
     },
 }
