@@ -7,7 +7,7 @@ import pytest
 
 from index import database
 
-STEP = '''"""A step that makes the table of shapes anew and fills a new column from an old one."""
+STEP = '''"""A step that was never made."""
 
 import sqlalchemy as sa
 from alembic import op
@@ -20,10 +20,31 @@ depends_on = None
 
 def upgrade() -> None:
     """Apply this step."""
+{body}
+'''
+
+# Makes the table of shapes anew and fills a new column from an old one.
+INITIALS = """
     with op.batch_alter_table("shapes", recreate="always") as shapes:
         shapes.add_column(sa.Column("initial", sa.String(), nullable=False, server_default="?"))
     op.execute("UPDATE shapes SET initial = substr(name, 1, 1)")
-'''
+"""
+
+# Adds what people decide about shapes, and who agrees.
+DECISIONS = """
+    op.create_table(
+        "decisions",
+        sa.Column("id", sa.Integer(), primary_key=True),
+        sa.Column("shape_id", sa.String(), sa.ForeignKey("shapes.id", ondelete="CASCADE"), nullable=False),
+        sa.Column("verdict", sa.JSON(), nullable=True),
+        sa.Column("weight", sa.Float(), nullable=False),
+    )
+    op.create_table(
+        "agreements",
+        sa.Column("decision_id", sa.Integer(), sa.ForeignKey("decisions.id", ondelete="CASCADE")),
+        sa.Column("who", sa.String(), nullable=False),
+    )
+"""
 
 
 def pretend_older(patch: pytest.MonkeyPatch, folder: Path, steps: int = 1) -> None:
@@ -33,11 +54,11 @@ def pretend_older(patch: pytest.MonkeyPatch, folder: Path, steps: int = 1) -> No
         path.unlink()
 
 
-def pretend_newer(patch: pytest.MonkeyPatch, folder: Path) -> None:
-    """Let this be a version whose shapes have a column ``initial``."""
+def pretend_newer(patch: pytest.MonkeyPatch, folder: Path, body: str = INITIALS) -> None:
+    """Let this be a version with one step more."""
     versions = _copied(patch, folder)
     newest = _steps(versions)[-1].name.split("_")[0].removeprefix("r")
-    (versions / "r9999_made.py").write_text(STEP.format(newest=newest))
+    (versions / "r9999_made.py").write_text(STEP.format(newest=newest, body=body))
 
 
 def _copied(patch: pytest.MonkeyPatch, folder: Path) -> Path:
