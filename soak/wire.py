@@ -89,7 +89,7 @@ def _whole(data: bytes, bodiless: bool) -> bool:
     if b"\r\n\r\n" not in data:
         return False
     reply = _reply(data)
-    return bodiless or len(reply.body) >= int(reply.headers.get("content-length", "0"))
+    return bodiless or len(reply.body) == int(reply.headers.get("content-length", "0"))
 
 
 def _reply(data: bytes) -> Reply:
@@ -97,4 +97,5 @@ def _reply(data: bytes) -> Reply:
     first, *lines = head.decode("latin-1").split("\r\n")
     headers = {name.lower(): value.strip() for name, _, value in (line.partition(":") for line in lines)}
     status = int(first.split()[1]) if first.startswith("HTTP/") else None
-    return Reply(status=status, headers=headers, body=body)
+    length = int(headers.get("content-length", len(body)))  # what follows is the next answer
+    return Reply(status=status, headers=headers, body=body[:length])

@@ -153,6 +153,8 @@ class FormReceiver:
         return _FilePart(name, self._folder / str(len(self.files)))
 
     def _open_field(self, name: str) -> "_FieldPart":
+        if name == "files":
+            raise BadMultipart("a part of the field 'files' has no file name (`filename=\"…\"`)")
         if len(self.fields) == self._limits.fields:
             raise TooManyFiles(f"more than {self._limits.fields} fields in one upload")
         if name in self.fields:
