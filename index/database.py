@@ -3,6 +3,7 @@
 import sqlite3
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from importlib.resources import as_file, files
 from typing import Any
 
@@ -18,20 +19,25 @@ from index.errors import CatalogueBusy, StorageFull
 
 SCRIPTS = files("index") / "migrations"  # Alembic's steps
 
-_BUSY_SECONDS = 15  # how long a writer waits for another
+BUSY_SECONDS = 15.0  # how long a writer waits for another, unless told
 _CONNECTIONS = 90  # beyond the first ten: one for each thread of a busy service
 _WRITES = "faience_writes"  # execution option of connections that are going to write
 
 
-def make_engine(url: str) -> Engine:
+def make_engine(url: str, busy_seconds: float = BUSY_SECONDS) -> Engine:
     """Return an engine for a SQLAlchemy URL, such as ``sqlite:////data/catalogue.db``.
 
     On SQLite every committed transaction is flushed to the disk before it returns, readers never
     wait for the writer, and writers wait for each other instead of failing half-way.
+
+    Parameters
+    ----------
+    busy_seconds : float
+        For how long; then they are told CatalogueBusy.
     """
     engine = create_engine(url, pool_size=10, max_overflow=_CONNECTIONS)
     if engine.dialect.name == "sqlite":
-        event.listen(engine, "connect", _prepare_sqlite)
+        event.listen(engine, "connect", partial(_prepare_sqlite, busy_seconds))
         event.listen(engine, "begin", _begin_sqlite)
     return engine
 
@@ -112,10 +118,10 @@ def _check_keys(connection: Connection) -> None:
         raise RuntimeError(f"a migration left rows of {broken[0]} without what they refer to in {broken[2]}")
 
 
-def _prepare_sqlite(connection: sqlite3.Connection, _record: Any) -> None:
+def _prepare_sqlite(busy_seconds: float, connection: sqlite3.Connection, _record: Any) -> None:
     connection.isolation_level = None  # _begin_sqlite says BEGIN; the driver would say it too late
     for pragma in (
-        f"busy_timeout = {int(_BUSY_SECONDS * 1000)}",
+        f"busy_timeout = {int(busy_seconds * 1000)}",
         "journal_mode = WAL",
         "synchronous = FULL",  # NORMAL may lose acknowledged commits when the power fails
         "foreign_keys = ON",

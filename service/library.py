@@ -56,7 +56,7 @@ class Library:
         """
         folder = settings.data_dir
         folder.mkdir(parents=True, exist_ok=True)
-        engine = make_engine(settings.url)
+        engine = make_engine(settings.url, settings.busy_seconds)
         migrate(engine)
         catalogue = Catalogue(engine)
         parameters = parameters or Parameters()

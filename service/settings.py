@@ -17,6 +17,7 @@ class Settings(BaseSettings):
 
     data_dir: Path = Path("faience-data")  # everything that is kept
     database_url: str | None = None  # SQLite inside data_dir where none is given
+    busy_seconds: float = Field(default=15, gt=0)  # that a change waits for another program's lock
     host: str = "127.0.0.1"
     port: int = Field(default=8000, ge=0, le=65535)
     api_keys: Annotated[tuple[SecretStr, ...], NoDecode] = ()  # beside the library's; separated by commas

@@ -10,9 +10,9 @@ from pathlib import Path
 import httpx
 
 from soak.clients import clients
-from soak.inspection import broken_promises
 from soak.ledger import Ledger
 from soak.processes import Command, ending, free_port, kill, serve, start, wait_until, work
+from soak.promises import broken_promises
 
 LEASE = 3.0  # seconds until a dead worker's job is another's
 PACE = 0.8  # seconds between uploads

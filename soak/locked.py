@@ -13,13 +13,18 @@ from pathlib import Path
 import httpx
 
 from soak.clients import form
-from soak.full_disk import GOOD
 from soak.parcels import parcel
-from soak.processes import ending, free_port, serve, start
+from soak.processes import ending, free_port, serve, start, wait_until
+from soak.small_disk import GOOD
 
 READY = GOOD[0]
 WRITERS = 60  # uploads at the same time: more than threads that a service has for anything else
-ENVIRONMENT = {"FAIENCE_POLL_SECONDS": "0.1", "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+ENVIRONMENT = {
+    "FAIENCE_BUSY_SECONDS": "4",
+    "FAIENCE_POLL_SECONDS": "0.1",
+    "OMP_NUM_THREADS": "1",
+    "OPENBLAS_NUM_THREADS": "1",
+}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,7 +54,8 @@ def run(folder: Path) -> LockedFigures:
     url = f"http://127.0.0.1:{port}"
     with ending(service), httpx.Client(base_url=url, timeout=120) as client:
         start(service, port)
-        shape = client.post("/v1/shapes", params={"wait": 60}, files=form(parcel(READY))).json()
+        shape = client.post("/v1/shapes", files=form(parcel(READY))).json()
+        wait_until(lambda: _status(client, shape["id"]) == "ready", "a ready shape")
         began = time.monotonic()
         with _locked(library / "catalogue.sqlite3"), ThreadPoolExecutor(WRITERS) as writers:
             sent = [writers.submit(_upload, url, number) for number in GOOD[1:2] * WRITERS]
@@ -86,6 +92,10 @@ def _locked(database: Path) -> Iterator[None]:
 
 def _upload(url: str, number: int) -> httpx.Response:
     return httpx.post(f"{url}/v1/shapes", files=form(parcel(number)), timeout=120)
+
+
+def _status(client: httpx.Client, shape_id: str) -> str:
+    return str(client.get(f"/v1/shapes/{shape_id}").json()["status"])
 
 
 def _read(client: httpx.Client, shape_id: str) -> tuple[int, float]:

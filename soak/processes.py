@@ -14,7 +14,7 @@ from pathlib import Path
 import httpx
 
 ROOT = Path(__file__).parents[1]
-PATIENCE = 120.0  # seconds until what hangs counts as broken
+PATIENCE = 300.0  # seconds until what hangs counts as broken; the first start on a machine compiles for one
 
 
 def wait_until(condition: Callable[[], bool], what: str = "what was waited for") -> None:

@@ -9,7 +9,6 @@ from alembic.autogenerate import compare_metadata
 from alembic.migration import MigrationContext
 from sqlalchemy import event, inspect, select, text
 
-from index import database
 from index.database import make_engine, migrate, reading, writing
 from index.errors import CatalogueBusy, StorageFull
 from index.revisions import now
@@ -81,7 +80,7 @@ def test_commits_are_durable_and_keys_are_checked(tmp_path: Path) -> None:
             connection.execute(text(f"PRAGMA {name}")).scalar_one()
             for name in ("journal_mode", "synchronous", "foreign_keys", "busy_timeout")
         ]
-    assert told == ["wal", 2, 1, 30_000]
+    assert told == ["wal", 2, 1, 15_000]
     engine.dispose()
 
 
@@ -102,11 +101,8 @@ def test_a_failed_transaction_leaves_nothing(tmp_path: Path) -> None:
     engine.dispose()
 
 
-def test_readers_go_on_and_writers_are_told_while_another_process_writes(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(database, "_BUSY_SECONDS", 0.05)
-    engine = make_engine(url_in(tmp_path))
+def test_readers_go_on_and_writers_are_told_while_another_process_writes(tmp_path: Path) -> None:
+    engine = make_engine(url_in(tmp_path), busy_seconds=0.05)
     migrate(engine)
     other = sqlite3.connect(tmp_path / "catalogue.db", isolation_level=None)
     other.execute("BEGIN IMMEDIATE")

@@ -19,6 +19,7 @@ from service.listening import UnsafeListening
 from service.retrieval import accept_upload
 from service.server import run_server, run_worker
 from service.settings import Settings
+from soak.processes import alive, descendants
 from tests.fakes import coloured_triangle
 from tests.serving import open_fake_library, settings_for, wait_until
 
@@ -27,6 +28,7 @@ SCRIPT = """
 import sys
 from service.server import run_server
 from service.settings import Settings
+from soak.processes import alive, descendants
 run_server(Settings(port=0), 2, False, lambda line: print(line, flush=True))
 """
 
@@ -57,21 +59,6 @@ def address(service: subprocess.Popen[str]) -> str:
     """Read where the service says it is."""
     line = service.stdout.readline() if service.stdout else ""
     return next(word for word in line.split() if word.startswith("http://"))
-
-
-def children_of(pid: int) -> list[int]:
-    """Return the processes below one, on Linux."""
-    found: list[int] = []
-    for child in Path(f"/proc/{pid}/task/{pid}/children").read_text().split():
-        found += [int(child), *children_of(int(child))]
-    return found
-
-
-def alive(pid: int) -> bool:
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    except FileNotFoundError:
-        return False
 
 
 def files_of(folder: Path) -> dict[str, bytes]:
@@ -106,7 +93,7 @@ def test_what_was_acknowledged_survives_kill_9_and_becomes_ready(tmp_path: Path)
         assert answer.status_code == 202
         path = answer.headers["location"]
         wait_until(lambda: client.get(path).json()["status"] != "queued")
-        family = children_of(service.pid)
+        family = descendants(service.pid)
         service.kill()
         wait_until(lambda: not any(alive(pid) for pid in family))
     with running(tmp_path) as (_, client):
@@ -125,7 +112,7 @@ def test_a_stop_is_clean_gives_jobs_back_and_leaves_no_process(
             "location"
         ]
         wait_until(lambda: client.get(path).json()["status"] != "queued")
-        family = children_of(service.pid)
+        family = descendants(service.pid)
         with client.stream("GET", "/v1/events") as events:  # a listener must not hold up the stop
             assert events.status_code == 200
             service.send_signal(number)

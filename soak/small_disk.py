@@ -70,7 +70,8 @@ def run(library: Path) -> FullDiskFigures:
     service.log = library.parent / f"{library.name}.log"  # on another disk
     with ending(service), httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=60) as client:
         start(service, port)
-        ready = [_upload(client, number, wait=60).json()["id"] for number in READY]
+        ready = [_upload(client, number).json()["id"] for number in READY]
+        wait_until(lambda: not _open_jobs(client), "the first shapes")
         for number in WAITING:
             _upload(client, number)
         _fill(ballast)
@@ -92,8 +93,8 @@ def run(library: Path) -> FullDiskFigures:
     )
 
 
-def _upload(client: httpx.Client, number: int, wait: float = 0) -> httpx.Response:
-    return client.post("/v1/shapes", params={"wait": wait}, files=form(parcel(number)))
+def _upload(client: httpx.Client, number: int) -> httpx.Response:
+    return client.post("/v1/shapes", files=form(parcel(number)))
 
 
 def _fill(ballast: Path) -> None:
