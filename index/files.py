@@ -5,8 +5,10 @@ import hashlib
 import os
 import re
 import shutil
+import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from itertools import groupby
 from pathlib import Path
 from typing import IO, BinaryIO
 from uuid import uuid4
@@ -44,8 +46,13 @@ class FileStore:
         """
         self.write(key, lambda file: file.write(data))
 
-    def put_stream(self, key: str, stream: BinaryIO) -> tuple[int, str]:
+    def put_stream(self, key: str, stream: BinaryIO, *, flushed: bool = True) -> tuple[int, str]:
         """Keep what `stream` holds, piece by piece; return its size and SHA-256.
+
+        Parameters
+        ----------
+        flushed : bool
+            False where many files follow each other and the caller calls `flush` after the last.
 
         Raises
         ------
@@ -60,9 +67,9 @@ class FileStore:
                 file.write(piece)
             return file.tell()
 
-        return self.write(key, copy), digest.hexdigest()
+        return self.write(key, copy, flushed=flushed), digest.hexdigest()
 
-    def write(self, key: str, fill: Callable[[IO[bytes]], int]) -> int:
+    def write(self, key: str, fill: Callable[[IO[bytes]], int], *, flushed: bool = True) -> int:
         """Keep what `fill` writes into the file it is given; return what it returns.
 
         Raises
@@ -74,14 +81,21 @@ class FileStore:
         aside = self._root / _INCOMING / uuid4().hex
         with full_disk_named():
             try:
-                _make_folder(aside.parent)
-                size = _write_through(aside, fill)
-                self._rename(aside, final)
+                _make_folder(aside.parent, flushed)
+                size = _write_through(aside, fill, flushed)
+                self._rename(aside, final, flushed)
             except BaseException:
                 aside.unlink(missing_ok=True)
                 self._prune(final.parent)
                 raise
         return size
+
+    def flush(self, keys: Iterable[str]) -> None:
+        """Make files durable that were put unflushed."""
+        if sys.platform == "linux":  # which waits here, and promises what flushing each file would; sync(2)
+            os.sync()
+        else:
+            self._flush_each(keys)
 
     def get(self, key: str) -> bytes:
         """Return the whole content; FileMissing where there is none."""
@@ -127,16 +141,27 @@ class FileStore:
                     swept += 1
         return swept
 
-    def _rename(self, aside: Path, final: Path) -> None:
+    def _flush_each(self, keys: Iterable[str]) -> None:
+        above = {self._root.parent}
+        for folder, paths in groupby(map(self.path, keys), key=lambda path: path.parent):
+            for path in paths:
+                _flush_file(path)
+            flush_folder(folder)
+            above.update(self._root / parent for parent in folder.relative_to(self._root).parents)
+        for folder in above:
+            flush_folder(folder)
+
+    def _rename(self, aside: Path, final: Path, flushed: bool) -> None:
         for left in reversed(range(_ATTEMPTS)):
             try:
-                _make_folder(final.parent)
+                _make_folder(final.parent, flushed)
                 aside.replace(final)
                 break
             except FileNotFoundError:  # a delete beside us pruned the folder just now
                 if not left:
                     raise
-        flush_folder(final.parent)
+        if flushed:
+            flush_folder(final.parent)
 
     def _prune(self, folder: Path) -> None:
         while folder != self._root:
@@ -149,21 +174,29 @@ class FileStore:
             folder = folder.parent
 
 
-def _write_through(path: Path, fill: Callable[[IO[bytes]], int]) -> int:
+def _write_through(path: Path, fill: Callable[[IO[bytes]], int], flushed: bool) -> int:
     with path.open("xb") as file:
         size = fill(file)
         file.flush()
-        os.fsync(file.fileno())
+        if flushed:
+            os.fsync(file.fileno())
     return size
 
 
-def _make_folder(folder: Path) -> None:
+def _make_folder(folder: Path, flushed: bool) -> None:
     """Make a folder whose own entry is durable too, and that of each parent it needed."""
     if folder.is_dir():
         return
-    _make_folder(folder.parent)
+    _make_folder(folder.parent, flushed)
     folder.mkdir(exist_ok=True)
-    flush_folder(folder.parent)
+    if flushed:
+        flush_folder(folder.parent)
+
+
+def _flush_file(path: Path) -> None:
+    """Make the content of a file durable."""
+    with path.open("rb") as file:
+        os.fsync(file.fileno())
 
 
 def flush_folder(folder: Path) -> None:

@@ -5,6 +5,7 @@ import stat
 from concurrent.futures import ThreadPoolExecutor
 from hashlib import sha256
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -173,3 +174,21 @@ def test_deleting_beside_writing_in_one_folder_harms_neither(tmp_path: Path) -> 
         for done in [threads.submit(again_and_again, f"n{number}") for number in range(4)]:
             done.result()
     assert everything_in(tmp_path) == []
+
+
+def test_many_files_are_flushed_at_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    flushed: list[int] = []  # inodes, and 0 for everything
+    monkeypatch.setattr("index.files.os.sync", lambda: flushed.append(0))
+    monkeypatch.setattr("index.files.os.fsync", lambda number: flushed.append(os.fstat(number).st_ino))
+    store = FileStore(tmp_path / "files")
+    keys = ["a/b/0", "a/b/1", "a/c/0"]
+    for key in keys:
+        store.put_stream(key, io.BytesIO(b"x"), flushed=False)
+    assert flushed == []
+    monkeypatch.setattr("index.files.sys", SimpleNamespace(platform="linux"))
+    store.flush(keys)
+    assert flushed == [0]
+    monkeypatch.setattr("index.files.sys", SimpleNamespace(platform="darwin"))
+    store.flush(keys)
+    needed = [tmp_path, *(tmp_path / "files" / place for place in ("", "a", "a/b", "a/c", *keys))]
+    assert set(flushed[1:]) == {path.stat().st_ino for path in needed}

@@ -125,6 +125,7 @@ def _bring_in(library: Library, archive: BinaryIO, members: Members, staging: St
         count = _put_files(library.files, archive, members, told)
         if time.monotonic() - started > _LONG:
             _renew(library.files, archive, members)
+        library.files.flush(_keys(members))
         # What is kept of an index here may show a later moment of the very library that comes.
         shutil.rmtree(library.settings.data_dir / "index", ignore_errors=True)
         replace_library(library.engine, staging.engine)
@@ -148,7 +149,7 @@ def _put_files(
         if part_of(stream.name) is not Part.FILE or not wanted(key):
             continue
         try:
-            size, sha256 = files.put_stream(key, cast("BinaryIO", stream))
+            size, sha256 = files.put_stream(key, cast("BinaryIO", stream), flushed=False)
         except OSError as error:
             if error.errno in _IMPOSSIBLE:
                 raise DamagedExport(f"no file can lie under {key!r:.100}") from None
