@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from index.errors import FileMissing
 from index.methods import METHODS
 from index.ranking import Ranked
 from index.shapes import Shape, Status
@@ -61,7 +62,7 @@ def _lost_or_doubled(library: Library, ledger: Ledger, shapes: dict[str, Shape])
         if shape_id not in shapes:
             yield f"parcel {number} was acknowledged as {shape_id} and is gone"
             continue
-        kept = {file.name: library.files.get(file.key) for file in shapes[shape_id].files}
+        kept = {file.name: _content(library, file.key) for file in shapes[shape_id].files}
         if kept != parcel(number):
             yield f"parcel {number}, kept as {shape_id}, is not what was sent"
     yield from (f"{shape_id} was removed and is back" for shape_id in ledger.removed & shapes.keys())
@@ -69,6 +70,13 @@ def _lost_or_doubled(library: Library, ledger: Ledger, shapes: dict[str, Shape])
     yield from (f"parcel {name} is kept {count} times" for name, count in names.items() if count > 1)
     sent = {str(number) for number in {*ledger.acknowledged.values(), *ledger.unanswered}}
     yield from (f"nobody sent {name}" for name in names.keys() - sent)
+
+
+def _content(library: Library, key: str) -> bytes | None:
+    try:
+        return library.files.get(key)
+    except FileMissing:
+        return None
 
 
 def _unended(shapes: dict[str, Shape]) -> Iterator[str]:

@@ -1,0 +1,17 @@
+"""Killed again and again, the service keeps what it promised."""
+
+from pathlib import Path
+
+from soak.crashes import TARGETS, run
+
+KILLS = 12
+
+
+def test_kills_at_any_moment_lose_nothing_double_nothing_and_leave_nothing(tmp_path: Path) -> None:
+    done: list[int] = []
+    figures = run(tmp_path, KILLS, seed=2011, report=done.append)
+    assert figures.broken == []
+    assert figures.kills.total() == done[-1] == KILLS
+    assert set(figures.kills) == set(TARGETS)
+    assert figures.acknowledged > 0
+    assert figures.answers["similar 200"] > 0
