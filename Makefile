@@ -1,5 +1,5 @@
 # Every command sets up what it needs; `make setup` alone prepares .venv.
-.PHONY: setup run test check lock vocabulary picture evaluation choices bench
+.PHONY: setup run test check soak lock vocabulary picture evaluation choices bench
 VENV := .venv
 PYTHON := $(VENV)/bin/python
 STAMP := $(VENV)/.complete
@@ -23,6 +23,11 @@ check: setup
 	$(VENV)/bin/ruff format --check .
 	$(VENV)/bin/mypy
 	$(VENV)/bin/lint-imports
+	$(PYTHON) -m soak.audit requirements.lock
+
+# Breaks the service on purpose for about half an hour: kills, mutants, cut and stalled uploads, full disks; fills docs/promises.md
+soak: setup
+	$(PYTHON) -m soak
 
 # Writes the exact versions now in .venv; run after changing pyproject.toml and installing.
 lock:
