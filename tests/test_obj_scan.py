@@ -14,6 +14,9 @@ LINES = [
     "usemtl",
     "f 1 2 3",
     " f 1/1 2/1 3/1",
+    "f 1/1 2/1 3/",
+    "f 1/1 2/1",
+    "usemtl\vd",
     "#usemtl x",
     "o usemtl",
     "vt 0 0",
@@ -33,6 +36,10 @@ def test_libraries_are_found_and_comments_are_not() -> None:
         (b"vt 0 0\nusemtl a\nf 1 2 3\n", {"a": False}),
         (b"\nvt 0 0\nusemtl a\nf 1//1 2//1 3//1\nf 1/1 2/1 3/1\n", {"a": True}),
         (b"\nvt 0 0\nf 1/1 2/1 3/1\nusemtl a\nusemtl b\nf 1 2 3\nusemtl b\nf 1/1 2/1 3/1\n", {"b": True}),
+        (b"\nvt 0 0\nusemtl a\nf 1/1 2/1 3/\n", {"a": False}),  # one corner has none: the face has none
+        (b"\nvt 0 0\nusemtl a\nf 1/1 2/1\n", {}),  # reading drops the face
+        (b"\nvtx 0 0\nusemtl a\nf 1/1 2/1 3/1\n", {"a": False}),  # no texture coordinates
+        (b"\nvt 0 0\nusemtl\va\nf +1/-1/ 2/1/1 3/1 # 4\n", {"a": True}),
         (b"", {}),
     ],
 )

@@ -43,6 +43,8 @@ def test_a_line_without_meaning_is_skipped_with_a_warning() -> None:
         (b"format ascii 1.0\n", b"", Code.BAD_HEADER),
         (b"format ascii 1.0", b"format ascii 2.0", Code.BAD_HEADER),
         (b"format ascii 1.0", b"format utf8 1.0", Code.BAD_HEADER),
+        (b"element face 1", b"element \x1b[31m 1\nelement face 1", Code.BAD_HEADER),
+        (b"element face 1", b"element " + b"a" * 101 + b" 1\nelement face 1", Code.BAD_HEADER),
         (b"format ascii 1.0\n", b"format ascii 1.0\nformat ascii 1.0\n", Code.BAD_HEADER),
         (b"vertex 3", b"vertex -5", Code.BAD_HEADER),
         (b"vertex 3", b"vertex three", Code.BAD_HEADER),

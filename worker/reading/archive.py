@@ -9,11 +9,13 @@ from collections.abc import Iterator
 from worker.errors import Code, MeshError
 from worker.reading.limits import Limits
 from worker.reading.references import normalise
+from worker.reading.showing import shown
 
 _PIECE = 1 << 20  # bytes unpacked at a time
 _METHODS = {zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED}
 _ENCRYPTED = 0x1
 _CENTRAL = b"PK\x01\x02"  # begins each entry of a zip's list
+_DAMAGED = "The zip is damaged, or of an unusual kind; pack its files anew."
 _ARCHIVES = (".zip", ".7z", ".rar", ".gz", ".tar", ".tgz", ".bz2", ".xz")
 
 
@@ -54,7 +56,7 @@ def unpack(data: bytes, limits: Limits) -> dict[str, bytes]:
         ValueError,
         OSError,
     ) as error:
-        raise MeshError(Code.BAD_ARCHIVE, f"The zip is damaged: {error}.") from error
+        raise MeshError(Code.BAD_ARCHIVE, _DAMAGED) from error
 
 
 def list_archive(data: bytes, limits: Limits) -> dict[str, int]:
@@ -69,7 +71,7 @@ def list_archive(data: bytes, limits: Limits) -> dict[str, int]:
         with _open(data, limits) as archive:
             return {name: entry.file_size for name, entry in _entries(archive, limits)}
     except (zipfile.BadZipFile, NotImplementedError, ValueError, OSError) as error:
-        raise MeshError(Code.BAD_ARCHIVE, f"The zip is damaged: {error}.") from error
+        raise MeshError(Code.BAD_ARCHIVE, _DAMAGED) from error
 
 
 def _open(data: bytes, limits: Limits) -> zipfile.ZipFile:
@@ -91,7 +93,7 @@ def _entries(archive: zipfile.ZipFile, limits: Limits) -> Iterator[tuple[str, zi
             continue
         _check_entry(entry, name)
         if name in found:
-            raise MeshError(Code.BAD_ARCHIVE, f"The zip holds “{name}” twice.")
+            raise MeshError(Code.BAD_ARCHIVE, f"The zip holds {shown(name)} twice.")
         found[name] = entry
     yield from found.items()
 
@@ -100,21 +102,24 @@ def _checked_name(entry: zipfile.ZipInfo) -> str:
     name = normalise(entry.filename)
     if name is None or ".." in entry.filename.replace("\\", "/").split("/"):
         raise MeshError(
-            Code.UNSAFE_REFERENCE, f"The zip holds “{entry.filename}”, which would lie outside of its folder."
+            Code.UNSAFE_REFERENCE,
+            f"The zip holds {shown(entry.filename)}, which would lie outside of its folder.",
         )
     if stat.S_ISLNK(entry.external_attr >> 16):
-        raise MeshError(Code.BAD_ARCHIVE, f"“{name}” in the zip is a link; send the file itself.")
+        raise MeshError(Code.BAD_ARCHIVE, f"{shown(name)} in the zip is a link; send the file itself.")
     return name
 
 
 def _check_entry(entry: zipfile.ZipInfo, name: str) -> None:
     if entry.flag_bits & _ENCRYPTED:
-        raise MeshError(Code.BAD_ARCHIVE, f"“{name}” in the zip is locked with a password.")
+        raise MeshError(Code.BAD_ARCHIVE, f"{shown(name)} in the zip is locked with a password.")
     if entry.compress_type not in _METHODS:
-        raise MeshError(Code.BAD_ARCHIVE, f"“{name}” in the zip is packed in an unusual way; use plain zip.")
+        raise MeshError(
+            Code.BAD_ARCHIVE, f"{shown(name)} in the zip is packed in an unusual way; use plain zip."
+        )
     if name.lower().endswith(_ARCHIVES):
         raise MeshError(
-            Code.BAD_ARCHIVE, f"The zip holds another archive, “{name}”; send the files themselves."
+            Code.BAD_ARCHIVE, f"The zip holds another archive, {shown(name)}; send the files themselves."
         )
 
 
@@ -138,7 +143,7 @@ def _read(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, most: int) -> bytes:
                 raise _too_large(most)
     if len(unpacked) != entry.file_size:
         raise MeshError(
-            Code.BAD_ARCHIVE, f"“{entry.filename}” unpacks to another size than the zip announces."
+            Code.BAD_ARCHIVE, f"{shown(entry.filename)} unpacks to another size than the zip announces."
         )
     return bytes(unpacked)
 

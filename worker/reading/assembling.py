@@ -11,6 +11,7 @@ from worker.reading.limits import Limits
 from worker.reading.mesh import Colour, Mesh
 from worker.reading.polygons import triangulate
 from worker.reading.references import SentFiles
+from worker.reading.showing import shown
 from worker.reading.textures import read_image
 
 NO_COLOUR = 0.5  # the grey of faces that have no colour
@@ -112,7 +113,7 @@ def find_texture(texture: TextureMap, files: SentFiles, allow_untextured: bool) 
     if found is None and not allow_untextured:
         raise MeshError(
             Code.MISSING_TEXTURE,
-            f"“{texture.named_by}” names the image “{texture.reference[:200]}”, which was not sent; "
+            f"{shown(texture.named_by)} names the image {shown(texture.reference)}, which was not sent; "
             "send it with the mesh, or allow the mesh without its texture.",
         )
     return found

@@ -7,6 +7,7 @@ import numpy as np
 
 from worker.arrays import BoolArray, FloatArray, IntArray
 from worker.errors import Code, MeshError
+from worker.reading.showing import shown
 
 LARGEST = 1e100  # products of three larger numbers overflow
 
@@ -84,5 +85,5 @@ def among(names: Sequence[str], what: str) -> list[str]:
     """Return one warning for names of which there may be thousands, or none."""
     if not names:
         return []
-    shown = ", ".join(f"“{name[:60]}”" for name in names[:3])
-    return [f"{len(names)} {what}: {shown}{' …' if len(names) > 3 else ''}"]
+    first = ", ".join(shown(name, 60) for name in names[:3])
+    return [f"{len(names)} {what}: {first}{' …' if len(names) > 3 else ''}"]

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 
 from worker.errors import Code, MeshError
 from worker.reading.contents import Material, TextureMap
+from worker.reading.showing import shown
 
 # Options that may stand before or after the name of an image, and the most arguments each takes.
 _OPTIONS = {
@@ -57,7 +58,7 @@ def read_mtl(data: bytes, name: str) -> dict[str, Material]:
         BAD_NUMBER where a colour is none, NOT_UTF8 for UTF-16.
     """
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
-        raise MeshError(Code.NOT_UTF8, f"“{name}” is written in UTF-16; expected UTF-8.")
+        raise MeshError(Code.NOT_UTF8, f"{shown(name)} is written in UTF-16; expected UTF-8.")
     materials: dict[str, Material] = {}
     for material, lines in _sections(decode_text(data)):
         materials.setdefault(material, _read_material(material, lines, name))
@@ -93,7 +94,9 @@ def _read_colour(rest: str, name: str) -> tuple[float, float, float] | None:
     if not words or words[0].lower() in {"xyz", "spectral"}:
         return None  # colours by spectrum curves: no program writes them
     if not all(_NUMBER.match(word) for word in words):
-        raise MeshError(Code.BAD_NUMBER, f"“{name}”: expected Kd and three numbers, found “{rest[:40]}”.")
+        raise MeshError(
+            Code.BAD_NUMBER, f"{shown(name)}: expected Kd and three numbers, found {shown(rest, 40)}."
+        )
     numbers = [min(max(float(word), 0.0), 1.0) for word in words[:3]]
     red, green, blue = numbers if len(numbers) == 3 else numbers[:1] * 3
     return red, green, blue

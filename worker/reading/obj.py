@@ -11,6 +11,7 @@ from worker.reading.contents import Material, Surface, check_finite, check_indic
 from worker.reading.obj_lines import Block, is_obj, read_block
 from worker.reading.obj_materials import find_materials
 from worker.reading.references import SentFiles
+from worker.reading.showing import shown
 from worker.reading.words import blocks, with_line_feeds
 
 
@@ -91,7 +92,7 @@ def check_text(data: bytes) -> bytes:
     if b"\0" in text:
         if text.lstrip()[:2] in {b"v ", b"# ", b"o ", b"g ", b"mt", b"vt", b"vn"}:
             raise MeshError(Code.BAD_DATA, "The text holds zero bytes: it is damaged.")
-        raise MeshError(Code.NOT_OBJ, f"Expected the text of an OBJ file, found {text[:12]!r} ….")
+        raise MeshError(Code.NOT_OBJ, f"Expected the text of an OBJ file, found {shown(text, 12)}.")
     return text.replace(b"\\\n", b" ")
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from worker.arrays import BoolArray, IntArray
 from worker.errors import Code, MeshError
 from worker.reading.parsing import parse_integers
+from worker.reading.showing import shown
 from worker.reading.words import Words
 
 
@@ -41,7 +42,7 @@ def read_corners(words: Words, face_lines: IntArray) -> Corners:
         raise MeshError(
             Code.BAD_DATA,
             f"Line {words.lines[position]}: expected at most three numbers in a corner, "
-            f"found “{words.word(position)}”.",
+            f"found {shown(words.word(position), 40)}.",
         )
     uv_starts = np.minimum(first + 1, words.ends)
     uv_words = Words(text=words.text, starts=uv_starts, ends=second, lines=words.lines)

@@ -7,6 +7,7 @@ from worker.errors import Code, MeshError
 from worker.reading.contents import Material, among
 from worker.reading.mtl import read_mtl
 from worker.reading.references import SentFiles
+from worker.reading.showing import shown
 
 
 def find_materials(
@@ -49,7 +50,7 @@ def find_materials(
     if undefined and missing and not allow_untextured:
         raise MeshError(
             Code.MISSING_TEXTURE,
-            f"“{named_by}” names the material file “{missing[0][:200]}”, which was not sent; "
+            f"{shown(named_by)} names the material file {shown(missing[0])}, which was not sent; "
             "send it with the mesh, or allow the mesh without its texture.",
         )
     return materials, [

@@ -5,8 +5,11 @@ from collections.abc import Iterator
 
 from worker.reading.mtl import decode_text
 
-_FACE = re.compile(rb"\n[ \t]*f[ \t]")
-_FACE_WITH_UV = re.compile(rb"\n[ \t]*f[ \t]+-?\d+/-?\d")
+_UV = re.compile(rb"\n[ \t]*vt[ \t]")
+_BLANKS = b" \t\n\v\f"
+# Whole faces only: one that reading would drop, or take for one without texture coordinates, needs no image.
+_FACE = re.compile(rb"\n[ \t]*f(?:[ \t]+[^\s#]+){3}")
+_FACE_WITH_UV = re.compile(rb"\n[ \t]*f(?:[ \t]+[-+]?\d+/[-+]?\d+(?:/[-+]?\d*)?){3,}+[ \t]*(?:[\n#]|$)")
 
 
 def named_libraries(text: bytes) -> list[str]:
@@ -28,7 +31,7 @@ def used_materials(text: bytes) -> dict[str, bool]:
     text : bytes
         Lines ended by line feeds.
     """
-    has_uvs = b"\nvt" in text
+    has_uvs = _UV.search(text) is not None
     lines = list(_lines_of(text, b"usemtl"))
     following = [start for _, start in lines[1:]] + [len(text)]
     used: dict[str, bool] = {}
@@ -47,6 +50,6 @@ def _lines_of(text: bytes, keyword: bytes) -> Iterator[tuple[str, int]]:
         end = text.find(b"\n", found)
         end = len(text) if end < 0 else end
         after = found + len(keyword)
-        if not text[start:found].strip() and text[after : after + 1] in {b" ", b"\t", b"\n", b""}:
+        if not text[start:found].strip() and text[after : after + 1] in _BLANKS:
             yield decode_text(text[after:end]).strip(), end
         found = text.find(keyword, max(end, after))

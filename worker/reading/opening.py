@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from worker.errors import Code, MeshError
 from worker.reading.archive import is_hidden
 from worker.reading.references import normalise
+from worker.reading.showing import shown
 
 _SUFFIXES = (".ply", ".obj")
 
@@ -20,7 +21,9 @@ def archive_name(sent: Mapping[str, bytes]) -> str | None:
     """
     archives = [name for name in sent if name.lower().endswith(".zip")]
     if archives and len(sent) > 1:
-        raise MeshError(Code.BAD_ARCHIVE, f"The zip “{archives[0]}” came with other files; send it alone.")
+        raise MeshError(
+            Code.BAD_ARCHIVE, f"The zip {shown(archives[0])} came with other files; send it alone."
+        )
     return archives[0] if archives else None
 
 
@@ -36,7 +39,7 @@ def sent_files(sent: Mapping[str, bytes]) -> dict[str, bytes]:
     for name, content in sent.items():
         path = normalise(name)
         if path is None:
-            raise MeshError(Code.UNSAFE_REFERENCE, f"The file name “{name}” points outside the upload.")
+            raise MeshError(Code.UNSAFE_REFERENCE, f"The file name {shown(name)} points outside the upload.")
         if not is_hidden(path):
             files[path] = content
     return files
@@ -53,10 +56,11 @@ def mesh_name(files: Iterable[str]) -> str:
     listed = list(files)
     meshes = sorted(name for name in listed if name.lower().endswith(_SUFFIXES))
     if not meshes:
-        shown = ", ".join(posixpath.basename(name) for name in sorted(listed)[:3]) or "nothing"
-        raise MeshError(Code.NO_MESH, f"Expected one .ply or .obj file, found {shown}.")
+        found = ", ".join(shown(posixpath.basename(name)) for name in sorted(listed)[:3]) or "nothing"
+        raise MeshError(Code.NO_MESH, f"Expected one .ply or .obj file, found {found}.")
     if len(meshes) > 1:
         raise MeshError(
-            Code.SEVERAL_MESHES, f"Expected one mesh, found {len(meshes)}: {meshes[0]}, {meshes[1]} …"
+            Code.SEVERAL_MESHES,
+            f"Expected one mesh, found {len(meshes)}: {shown(meshes[0])}, {shown(meshes[1])} …",
         )
     return meshes[0]

@@ -6,6 +6,7 @@ import numpy as np
 
 from worker.arrays import BoolArray, ByteArray, FloatArray, IntArray
 from worker.errors import Code, MeshError
+from worker.reading.showing import shown
 from worker.reading.words import Words
 
 _WHOLE = re.compile(r"[-+]?[0-9]{1,18}")  # longer ones could overflow 64 bits
@@ -135,5 +136,6 @@ def _parse_integer(words: Words, position: int) -> int:
 
 def _bad_number(words: Words, position: int, expected: str) -> MeshError:
     word = words.word(position)
-    shown = word if len(word) <= 40 else word[:40] + "…"
-    return MeshError(Code.BAD_NUMBER, f"Line {words.lines[position]}: expected {expected}, found “{shown}”.")
+    return MeshError(
+        Code.BAD_NUMBER, f"Line {words.lines[position]}: expected {expected}, found {shown(word, 40)}."
+    )

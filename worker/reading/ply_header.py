@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from worker.errors import Code, MeshError
 from worker.reading.contents import among
 from worker.reading.limits import Limits
+from worker.reading.showing import shown
 
 TYPES = dict[str, str](
     char="i1", uchar="u1", short="i2", ushort="u2", int="i4", uint="u4", float="f4", double="f8"
@@ -14,6 +15,7 @@ TYPES = dict[str, str](
 BYTE_ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 INDEX_NAMES = ("vertex_indices", "vertex_index")  # of the list of a face's corners
 _END = b"end_header"
+LONGEST_NAME = 100  # characters of an element's name, which messages repeat
 _LONGEST = 1 << 20  # bytes of a header
 
 
@@ -78,7 +80,9 @@ def _header_lines(data: bytes, start: int) -> tuple[list[str], int]:
     """Return the header's lines without the last, and where the body begins."""
     magic = data[start : start + 4]
     if magic[:3] != b"ply" or (magic[3:] and magic[3:] not in b" \t\r\n"):
-        raise MeshError(Code.NOT_PLY, f"Expected a file that begins with “ply”, found {magic[:3]!r}.")
+        raise MeshError(
+            Code.NOT_PLY, f"Expected a file that begins with “ply”, found {shown(data[start : start + 12])}."
+        )
     found = start
     while True:
         found = data.find(_END, found + 1, start + _LONGEST)
@@ -132,14 +136,16 @@ class _Builder:
 
     def _take_format(self, words: list[str]) -> None:
         if self.format is not None or len(words) != 3 or words[1] not in BYTE_ORDERS or words[2] != "1.0":
-            raise _bad(f"expected one format (ascii or binary, 1.0), found “{' '.join(words)}”")
+            raise _bad(f"expected one format (ascii or binary, 1.0), found {shown(' '.join(words))}")
         self.format = words[1]
 
     def _take_element(self, words: list[str]) -> None:
         if len(words) != 3 or not (words[2].isascii() and words[2].isdigit()) or len(words[2]) > 18:
-            raise _bad(f"expected “element”, a name and a count, found “{' '.join(words)}”")
+            raise _bad(f"expected “element”, a name and a count, found {shown(' '.join(words))}")
         if any(words[1] == name for name, _, _ in self.elements):
-            raise _bad(f"the element “{words[1]}” is declared twice")
+            raise _bad(f"the element {shown(words[1])} is declared twice")
+        if not words[1].isprintable() or len(words[1]) > LONGEST_NAME:
+            raise _bad(f"expected the name of an element, found {shown(words[1])}")
         self.elements.append((words[1], int(words[2]), []))
 
     def _take_property(self, words: list[str]) -> None:
@@ -148,7 +154,7 @@ class _Builder:
         field = _read_property(words)
         fields = self.elements[-1][2]
         if any(other.name == field.name for other in fields):
-            raise _bad(f"the property “{field.name}” is declared twice")
+            raise _bad(f"the property {shown(field.name)} is declared twice")
         fields.append(field)
 
     def finish(self, body: int) -> Header:
@@ -173,7 +179,7 @@ def _read_property(words: list[str]) -> Property:
             return Property(name=name, type=TYPES[kind], count_type=TYPES[count])
         case [kind, name] if kind in TYPES:
             return Property(name=name, type=TYPES[kind])
-    raise _bad(f"expected a property with known types, found “{' '.join(words)}”")
+    raise _bad(f"expected a property with known types, found {shown(' '.join(words))}")
 
 
 def _bad(what: str) -> MeshError:

@@ -7,6 +7,7 @@ from collections import defaultdict
 from collections.abc import Callable, Mapping
 
 from worker.errors import Code, MeshError
+from worker.reading.showing import shown
 
 _DRIVE = re.compile(r"[A-Za-z]:")
 
@@ -77,7 +78,7 @@ class SentFiles:
         if path is None and slashed and not found:
             raise MeshError(
                 Code.UNSAFE_REFERENCE,
-                f"“{named_by}” names “{reference[:200]}”, which lies outside of what was sent; "
+                f"{shown(named_by)} names {shown(reference)}, which lies outside of what was sent; "
                 "send that file too, beside the mesh.",
             )
         return found[0] if len(found) == 1 else None

@@ -12,6 +12,7 @@ from PIL import Image
 from worker.arrays import ByteArray, FloatArray
 from worker.errors import Code, MeshError
 from worker.reading.limits import Limits
+from worker.reading.showing import shown
 
 # What textures come in. Pillow's other readers start programs (EPS) or are little tried.
 FORMATS = ("PNG", "JPEG", "BMP", "TGA", "TIFF", "WEBP", "GIF", "JPEG2000", "PPM", "DDS", "PCX")
@@ -78,11 +79,11 @@ def _refusals(name: str, limits: Limits) -> Iterator[None]:
         raise
     except Image.DecompressionBombError:
         raise MeshError(
-            Code.IMAGE_TOO_LARGE, f"The image “{name}” has more than {limits.image_pixels:,} pixels."
+            Code.IMAGE_TOO_LARGE, f"The image {shown(name)} has more than {limits.image_pixels:,} pixels."
         ) from None
     except Exception as error:  # Pillow raises whatever its readers stumble over
         raise MeshError(
-            Code.BAD_IMAGE, f"Expected an image (PNG, JPEG, TIFF …) in “{name}”, but it cannot be read."
+            Code.BAD_IMAGE, f"Expected an image (PNG, JPEG, TIFF …) in {shown(name)}, but it cannot be read."
         ) from error
 
 
@@ -92,7 +93,8 @@ def _open(data: bytes, name: str, limits: Limits) -> Image.Image:
     if width * height > limits.image_pixels:
         raise MeshError(
             Code.IMAGE_TOO_LARGE,
-            f"The image “{name}” has {width} by {height} pixels; at most {limits.image_pixels:,} are read.",
+            f"The image {shown(name)} has {width} by {height} pixels; "
+            f"at most {limits.image_pixels:,} are read.",
         )
     return image
 
