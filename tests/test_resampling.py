@@ -3,6 +3,7 @@ import pytest
 
 from tests.shapes import box, sheet, sphere
 from worker.arrays import FloatArray, IntArray
+from worker.errors import Code, MeshError
 from worker.geometry.areas import face_vectors
 from worker.geometry.edges import find_edges, lengths_of
 from worker.geometry.resampling import edge_of, resample, sample_surface
@@ -28,6 +29,17 @@ def tube(n: int, length: float) -> tuple[FloatArray, IntArray]:
     here, there = np.arange(n), (np.arange(n) + 1) % n
     faces = [np.column_stack([here, there, here + n]), np.column_stack([there, there + n, here + n])]
     return np.vstack([ring, ring + [0, 0, length]]), np.vstack(faces)
+
+
+def test_a_surface_too_long_and_thin_for_its_area_is_refused_early() -> None:
+    with pytest.raises(MeshError, match="long and thin") as caught:
+        resample(*tube(24, 1e8), 19_000.0, 500)
+    assert caught.value.code == Code.TOO_COMPLEX
+
+
+def test_many_vertices_as_such_are_no_reason_to_refuse() -> None:
+    vertices, faces = sphere(5)  # 10 242 vertices for 20
+    assert len(resample(vertices, faces, 19_000.0, 20)[0]) == 20
 
 
 def test_needles_do_not_become_ever_more_needles() -> None:

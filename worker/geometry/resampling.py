@@ -4,12 +4,14 @@ import numpy as np
 
 from worker.arrays import FloatArray, IntArray
 from worker.compiled import compiled
+from worker.errors import Code, MeshError
 from worker.geometry.areas import edge_lengths
 from worker.geometry.collapse import collapse_short_edges
 from worker.geometry.refinement import split_long_edges
 
 SHORTEST = 1 / 2  # of a canonical edge: shorter ones go before any is split, so that needles do not multiply
 LONGEST = 4 / 3  # of a canonical edge: longer ones are split before collapsing (Botsch and Kobbelt 2004)
+GROWTH = 10  # times the vertices wanted: what splitting may add, or a needle of 12 triangles takes minutes
 SECTION = np.array(
     [0.7548776662466927, 0.5698402909980532]
 )  # of the plastic number (Roberts 2018, R2 sequence)
@@ -46,6 +48,11 @@ def resample(
     vertices : (n', 3) array
         Centred.
     faces : (m', 3) array
+
+    Raises
+    ------
+    MeshError
+        TOO_COMPLEX where the surface is so long and thin that splitting adds too many vertices.
     """
     vertices, faces = retriangulate(
         normalise_area(vertices, faces, area), faces, n_vertices, edge_of(area, n_vertices)
@@ -89,13 +96,24 @@ def _refine(
     vertices: FloatArray, faces: IntArray, n_vertices: int, edge: float
 ) -> tuple[FloatArray, IntArray]:
     """Split long edges by and by, and drop short ones on the way: needles would become ever more needles."""
+    most = len(vertices) + GROWTH * n_vertices
     current = float(edge_lengths(vertices, faces).max())
     vertices, faces = collapse_short_edges(vertices, faces, n_vertices, SHORTEST * edge)
     while current > LONGEST * edge:
         current = max(current / 2.0, LONGEST * edge)
         vertices, faces = split_long_edges(vertices, faces, current)
         vertices, faces = collapse_short_edges(vertices, faces, n_vertices, SHORTEST * edge)
+        _check_growth(len(vertices), most)
     return vertices, faces
+
+
+def _check_growth(n_vertices: int, most: int) -> None:
+    if n_vertices > most:
+        raise MeshError(
+            Code.TOO_COMPLEX,
+            "The surface is too long and thin for its area: even triangles on it would have more than "
+            f"{most:,} vertices.",
+        )
 
 
 @compiled
