@@ -69,7 +69,8 @@ def check_contract(url: str, key: str, *, examples: int, seed: int = SEED) -> Co
     Parameters
     ----------
     url : str
-        Of a service with some ready shapes. They are changed, and some removed.
+        Of a service with a page of ready shapes and more; it should not count the key's uploads
+        (`FAIENCE_UPLOADS_PER_MINUTE=0`), or most end with 429. Its shapes are changed, and some removed.
     key : str
         A key that may write.
     examples : int

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
-from soak.parcels import parcel
+from soak.parcels import kind_of, parcel
 from soak.target import Target, form
 from soak.wire import Reply
 
@@ -45,7 +45,8 @@ def concurrent_uploads(target: Target, count: int, *, copies: int, first: int = 
         An answer was none of those that are promised, or a content has no shape, or more than one.
     """
     together, start = threading.Barrier(count), time.monotonic()
-    numbers = [first + sender // copies for sender in range(count)]
+    contents = [number for number in range(first, first + 2 * count) if kind_of(number) != "empty"]
+    numbers = [contents[sender // copies] for sender in range(count)]  # a failed content would be new again
 
     def send(number: int) -> tuple[list[int], float, str]:
         body = form(parcel(number))

@@ -17,7 +17,9 @@ PARTS = ("", "/descriptors", "/files/{name}", "/preview.glb", "/similar", "/thum
 
 @pytest.fixture(scope="module")
 def figures(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ContractFigures]:
-    settings = settings_for(tmp_path_factory.mktemp("library"), workers=1, api_keys=(KEY,))
+    settings = settings_for(
+        tmp_path_factory.mktemp("library"), workers=1, api_keys=(KEY,), uploads_per_minute=0
+    )
     with serving(settings) as service:
         service.client.headers["Authorization"] = f"Bearer {KEY}"
         for red in range(SHAPES):
