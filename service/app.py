@@ -13,6 +13,7 @@ from index.keys import Keys
 from index.rehearsal import rehearse as rehearse_search
 from service.http.dependencies import Services, guard
 from service.http.errors import add_handlers
+from service.http.head import AnswerHead
 from service.http.headers import AddSafeHeaders
 from service.http.metrics import CountRequests, Metrics
 from service.http.openapi import DESCRIPTION, GUARDED, SUMMARY, describe_interface
@@ -74,6 +75,7 @@ def create_app(
         LimitBodyTime, idle_seconds=settings.body_idle_seconds, seconds=settings.body_seconds
     )
     app.add_middleware(AnswerUnexpected)
+    app.add_middleware(AnswerHead)
     app.add_middleware(ReplacePlainErrors)
     app.add_middleware(AddSafeHeaders)
     app.add_middleware(CountRequests, metrics=metrics)

@@ -17,11 +17,12 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Serving]:
 @pytest.mark.parametrize(
     ("method", "path", "allowed"),
     [
-        ("PUT", "/v1/shapes", {"GET", "POST"}),
-        ("OPTIONS", "/v1/shapes/x", {"GET", "PATCH", "DELETE"}),
-        ("POST", "/v1/shapes/x/files/folder/a.ply", {"GET"}),
+        ("PUT", "/v1/shapes", {"GET", "HEAD", "POST"}),
+        ("OPTIONS", "/v1/shapes/x", {"GET", "HEAD", "PATCH", "DELETE"}),
+        ("POST", "/v1/shapes/x/files/folder/a.ply", {"GET", "HEAD"}),
         ("BREW", "/v1/search", {"POST"}),
-        ("DELETE", "/livez", {"GET"}),
+        ("PUT", "/openapi.json", {"GET", "HEAD"}),
+        ("DELETE", "/livez", {"GET", "HEAD"}),
     ],
 )
 def test_a_wrong_method_is_told_the_right_ones(
