@@ -1,6 +1,8 @@
 """Kills without warning, while clients upload, remove and ask; then every promise is looked at."""
 
+import os
 import random
+import signal
 import time
 from collections import Counter
 from collections.abc import Callable
@@ -26,13 +28,14 @@ ENVIRONMENT = {
 }
 TARGETS = ("api", "worker", "child")
 ODDS = (3, 3, 4)
+DAMAGED, PAUSED = 0.5, 0.1  # how often an index file is damaged after a kill of the API, a worker stopped
 
 
 @dataclass(frozen=True, kw_only=True)
 class CrashFigures:
     """What was done, and what came of it."""
 
-    kills: Counter[str]  # by what was killed
+    harm: Counter[str]  # kills by target; also index files "damaged", and workers "paused" past their leases
     seconds: float
     acknowledged: int  # uploads
     removed: int  # shapes
@@ -57,22 +60,23 @@ def run(
     port, ledger = free_port(), Ledger()
     library = folder / "library"
     api, worker = serve(library, port, 1, ENVIRONMENT), work(library, ENVIRONMENT)
-    kills: Counter[str] = Counter()
+    harm: Counter[str] = Counter()
     with ending(api, worker):
         _revive(api, worker, port)
         with clients(port, ledger, seed, PACE):
             generator = random.Random(seed)
-            while kills.total() < n_kills:
+            while kills_of(harm) < n_kills:
                 time.sleep(generator.uniform(*LIVES))
-                kills.update(_kill_one(generator, api, worker))
+                target = TARGETS[kills_of(harm)] if kills_of(harm) < len(TARGETS) else _draw(generator)
+                harm.update(_harm(target, generator, api, worker, library))
                 _revive(api, worker, port)
                 _look(port, ledger, generator)
-                report(kills.total())
+                report(kills_of(harm))
         wait_until(lambda: _all_ended(port), "the end of every job")
         api.stop()
         worker.stop()
     return CrashFigures(
-        kills=kills,
+        harm=harm,
         seconds=time.monotonic() - began,
         acknowledged=len(ledger.acknowledged),
         removed=len(ledger.removed),
@@ -82,15 +86,33 @@ def run(
     )
 
 
+def kills_of(harm: Counter[str]) -> int:
+    """Return how many kills there were."""
+    return sum(harm[target] for target in TARGETS)
+
+
+def _draw(generator: random.Random) -> str:
+    return generator.choices(TARGETS, ODDS)[0]
+
+
+def _harm(target: str, generator: random.Random, api: Command, worker: Command, library: Path) -> list[str]:
+    """Kill something, and perhaps do more; return what was done."""
+    done = _kill_one(target, generator, api, worker)
+    if not api.running() and generator.random() < DAMAGED:
+        done += _damage(library / "index", generator)
+    if worker.running() and generator.random() < PAUSED:
+        done += _pause(worker)
+    return done
+
+
 def _revive(api: Command, worker: Command, port: int) -> None:
     if not worker.running():
         worker.start()
     start(api, port)
 
 
-def _kill_one(generator: random.Random, api: Command, worker: Command) -> list[str]:
-    """Kill something; return what, or nothing where it had just ended by itself."""
-    target = generator.choices(TARGETS, ODDS)[0]
+def _kill_one(target: str, generator: random.Random, api: Command, worker: Command) -> list[str]:
+    """Kill a target; return it, or nothing where it had just ended by itself."""
     if target == "api":
         api.kill()
     elif target == "worker":
@@ -100,6 +122,30 @@ def _kill_one(generator: random.Random, api: Command, worker: Command) -> list[s
         if not family or not kill(generator.choice(family)):
             return []
     return [target]
+
+
+def _damage(folder: Path, generator: random.Random) -> list[str]:
+    """Change or cut one index file, if there is any."""
+    files = sorted(folder.glob("*.vectors"))
+    if not files:
+        return []
+    path = generator.choice(files)
+    data = bytearray(path.read_bytes())
+    place = generator.randrange(len(data))
+    if generator.random() < 0.5:
+        data[place] ^= 1 << generator.randrange(8)
+    else:
+        del data[place:]
+    path.write_bytes(data)
+    return ["damaged"]
+
+
+def _pause(worker: Command) -> list[str]:
+    """Stop a worker for longer than its leases, as a machine does that sleeps; then let it go on."""
+    os.kill(worker.pid, signal.SIGSTOP)
+    time.sleep(1.5 * LEASE)
+    os.kill(worker.pid, signal.SIGCONT)
+    return ["paused"]
 
 
 def _look(port: int, ledger: Ledger, generator: random.Random) -> None:
