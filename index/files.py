@@ -46,13 +46,8 @@ class FileStore:
         """
         self.write(key, lambda file: file.write(data))
 
-    def put_stream(self, key: str, stream: BinaryIO, *, flushed: bool = True) -> tuple[int, str]:
+    def put_stream(self, key: str, stream: BinaryIO) -> tuple[int, str]:
         """Keep what `stream` holds, piece by piece; return its size and SHA-256.
-
-        Parameters
-        ----------
-        flushed : bool
-            False where many files follow each other and the caller calls `flush` after the last.
 
         Raises
         ------
@@ -67,10 +62,15 @@ class FileStore:
                 file.write(piece)
             return file.tell()
 
-        return self.write(key, copy, flushed=flushed), digest.hexdigest()
+        return self.write(key, copy), digest.hexdigest()
 
     def write(self, key: str, fill: Callable[[IO[bytes]], int], *, flushed: bool = True) -> int:
         """Keep what `fill` writes into the file it is given; return what it returns.
+
+        Parameters
+        ----------
+        flushed : bool
+            False where many files follow each other and the caller calls `flush` after the last.
 
         Raises
         ------

@@ -9,7 +9,7 @@ from typing import Any, Self
 from sqlalchemy import Connection, Engine, Table, insert
 from sqlalchemy.exc import IntegrityError
 
-from index.database import make_engine, migrate, reading
+from index.database import make_engine, migrate, reading, writing
 from index.errors import DamagedExport, NewerFormat
 from index.portable import readers_of, row_of
 from index.schema import is_known, library_tables
@@ -46,7 +46,7 @@ class Staging:
         self._open.callback(self.engine.dispose)
         migrate(self.engine, revision)
         self._filling = self._open.enter_context(ExitStack())
-        self._connection: Connection = self._filling.enter_context(self.engine.begin())
+        self._connection: Connection = self._filling.enter_context(writing(self.engine)).connection()
         self._tables = {table.name: table for table in library_tables(self._connection)}
         self._missing = set(self._tables)
         for table in reversed(self._tables.values()):  # a new catalogue has a state of its own

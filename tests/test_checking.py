@@ -188,11 +188,10 @@ def test_what_no_export_could_hold_is_refused(tmp_path: Path, archive: Path, cas
 
 
 def test_a_newer_format_and_a_newer_schema_are_told(tmp_path: Path, archive: Path) -> None:
-    for number, (changes, reason) in enumerate(
-        [({"format": 2, "more": 1}, "reads up to 1"), ({"schema": "9999"}, "the schema '9999'")]
-    ):
+    newer = [(header(format=2, more=1), "reads up to 1"), (header(schema="9999"), "the schema '9999'")]
+    for number, (change, reason) in enumerate(newer):
         parts = parts_of(archive)
-        header(**changes)(parts)
+        change(parts)
         path = write_parts(tmp_path / "forged.tar", with_sums(parts))
         assert reason in refused(tmp_path / str(number), path, NewerFormat.code)
 

@@ -58,7 +58,7 @@ def test_ordinary_tools_unpack_it_and_check_it(tmp_path: Path) -> None:
     folder.mkdir()
     told = [
         subprocess.run(command, cwd=folder, capture_output=True, text=True, check=True)
-        for command in (["tar", "xf", archive], ["sha256sum", "--strict", "-c", "SHA256SUMS"])
+        for command in (["tar", "xf", str(archive)], ["sha256sum", "--strict", "-c", "SHA256SUMS"])
     ]
     assert all(result.stderr == "" for result in told)
     assert told[1].stdout.count(": OK\n") == len(parts_of(archive)) - 1

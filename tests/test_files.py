@@ -183,7 +183,7 @@ def test_many_files_are_flushed_at_once(tmp_path: Path, monkeypatch: pytest.Monk
     store = FileStore(tmp_path / "files")
     keys = ["a/b/0", "a/b/1", "a/c/0"]
     for key in keys:
-        store.put_stream(key, io.BytesIO(b"x"), flushed=False)
+        store.write(key, lambda file: file.write(b"x"), flushed=False)
     assert flushed == []
     monkeypatch.setattr("index.files.sys", SimpleNamespace(platform="linux"))
     store.flush(keys)

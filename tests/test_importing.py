@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from index.errors import CatalogueBusy, LibraryNotEmpty, NewerFormat, StorageFull
+from index.errors import CatalogueBusy, DamagedExport, LibraryNotEmpty, NewerFormat, StorageFull
 from index.keys import Keys
 from index.methods import METHODS
 from index.scopes import Scope
@@ -323,3 +323,20 @@ def test_damage_from_before_the_export_is_told_and_the_rest_comes(tmp_path: Path
         ("file_missing", one.id, f"shapes/{one.id}/thumbnail.png"),
         ("file_altered", other.id, other.files[0].key),
     }
+
+
+def test_an_archive_that_changes_after_it_was_checked_is_refused(tmp_path: Path) -> None:
+    archive = exported(tmp_path)
+    place = archive.read_bytes().index(b"ply\nformat")
+
+    def change(what: str, _: int, __: int) -> None:
+        if what == "Importing":
+            with archive.open("r+b") as file:
+                file.seek(place)
+                file.write(b"PLY")
+
+    with opened(tmp_path / "to") as library:
+        with pytest.raises(DamagedExport, match="altered during the import"):
+            import_library(library, archive, change)
+        assert files_of(library) == {}
+        assert library.catalogue.list().items == ()

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import BinaryIO, cast
+from typing import IO, BinaryIO, cast
 
 from index.dumping import one_moment
 from index.errors import CatalogueBusy, DamagedExport
@@ -20,7 +20,7 @@ from service.backup.belongings import made_prefix, needed_files
 from service.backup.checking import checked_archive
 from service.backup.layout import FILES, Part, part_of
 from service.backup.members import Members
-from service.backup.reading import Told, members_of
+from service.backup.reading import MemberStream, Told, members_of
 from service.backup.summary import Damage, Summary
 from service.backup.writing import Written
 from service.jobs.sweeping import HOUR
@@ -28,6 +28,7 @@ from service.library import Library
 from service.storage import derived_key
 
 _LONG = HOUR / 2  # seconds; well before files count as left over
+_PIECE = 1 << 20  # bytes read at once
 _IMPOSSIBLE = frozenset({errno.ENAMETOOLONG, errno.ENOTDIR, errno.EISDIR, errno.EEXIST})
 
 Progress = Callable[[str, int, int], None]  # what is done, bytes of the archive so far, of how many
@@ -148,16 +149,24 @@ def _put_files(
         key = stream.name.removeprefix(FILES)
         if part_of(stream.name) is not Part.FILE or not wanted(key):
             continue
-        try:
-            size, sha256 = files.put_stream(key, cast("BinaryIO", stream), flushed=False)
-        except OSError as error:
-            if error.errno in _IMPOSSIBLE:
-                raise DamagedExport(f"no file can lie under {key!r:.100}") from None
-            raise
-        if Written(size=size, sha256=sha256) != members.find(stream.name):
+        _put_file(files, key, stream)
+        if Written(size=stream.size, sha256=stream.digest()) != members.find(stream.name):
             raise DamagedExport(f"{stream.name!r:.100} was altered during the import")
         count += 1
     return count
+
+
+def _put_file(files: FileStore, key: str, stream: MemberStream) -> None:
+    def fill(file: IO[bytes]) -> int:
+        shutil.copyfileobj(stream, file, _PIECE)
+        return stream.size
+
+    try:
+        files.write(key, fill, flushed=False)
+    except OSError as error:
+        if error.errno in _IMPOSSIBLE:
+            raise DamagedExport(f"no file can lie under {key!r:.100}") from None
+        raise
 
 
 def _renew(files: FileStore, archive: BinaryIO, members: Members) -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from index.errors import DamagedExport
+from index.errors import DamagedExport, StorageFull
 from service.backup.layout import file_member
 from service.backup.writing import Written
 
@@ -89,3 +89,5 @@ class Members:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self._connection.close()
+        if isinstance(error, sqlite3.OperationalError) and error.sqlite_errorcode == sqlite3.SQLITE_FULL:
+            raise StorageFull("the disk is full; nothing was imported") from error
