@@ -17,8 +17,8 @@ CUT = (ConnectionResetError, BrokenPipeError)  # as the moment has it
 class Hasty(BoundedConnection):
     """The same with little patience."""
 
-    head_seconds = 0.5
-    deaf_seconds = 0.5
+    head_seconds = 1.5
+    deaf_seconds = 1.0
     linger_seconds = 5.0
     most = 30
 

@@ -18,7 +18,7 @@ LISTEN = b"GET /v1/events?since=0 HTTP/1.1\r\nHost: localhost\r\nContent-Length:
 
 @pytest.fixture
 def service(tmp_path: Path) -> Iterator[Serving]:
-    with serving(settings_for(tmp_path, workers=0, body_idle_seconds=0.5, body_seconds=3)) as running:
+    with serving(settings_for(tmp_path, workers=0, body_idle_seconds=1, body_seconds=5)) as running:
         yield running
 
 
@@ -34,7 +34,7 @@ def test_a_body_that_nobody_reads_ends_no_answer(service: Serving) -> None:
     with connected(service.address) as connection:
         connection.sendall(LISTEN)
         assert read_reply(connection).status == 200
-        shape = service.add({"a.ply": coloured_triangle()}, wait=2).json()  # longer than a body may rest
+        shape = service.add({"a.ply": coloured_triangle()}, wait=3).json()  # longer than a body may rest
         told = b""
         while shape["id"].encode() not in told:
             told += connection.recv(65536)

@@ -24,20 +24,30 @@ STEP = 150  # bytes between two cuts; around the seams of the form every byte is
 class Hasty(BoundedConnection):
     """A connection with little patience."""
 
-    head_seconds = 1.0
-    deaf_seconds = 1.0
+    head_seconds = 2.0
+    deaf_seconds = 2.0
 
 
 @pytest.fixture
 def service(tmp_path: Path) -> Iterator[Serving]:
-    settings = settings_for(tmp_path, workers=0, body_idle_seconds=0.5, body_seconds=3)
-    with serving(settings, connection=Hasty) as running:
+    with serving(settings_for(tmp_path, workers=0)) as running:
         yield running
 
 
 @pytest.fixture
 def target(service: Serving) -> Target:
-    return Target(address=service.address, folder=service.library.settings.data_dir)
+    return target_of(service)
+
+
+@pytest.fixture
+def hasty(tmp_path: Path) -> Iterator[Target]:
+    settings = settings_for(tmp_path, workers=0, body_idle_seconds=2, body_seconds=4)
+    with serving(settings, connection=Hasty) as running:
+        yield target_of(running)
+
+
+def target_of(running: Serving) -> Target:
+    return Target(address=running.address, folder=running.library.settings.data_dir)
 
 
 def test_an_upload_cut_anywhere_and_anyhow_leaves_nothing_and_can_be_sent_again(target: Target) -> None:
@@ -57,11 +67,11 @@ def test_the_last_cut_is_the_last_that_makes_a_form_incomplete(target: Target) -
     assert target.upload(body[: last_cut(body) + 1]).status == 202
 
 
-def test_twenty_stalled_clients_keep_nobody_from_working_and_are_let_go(target: Target) -> None:
-    figures = stalled_clients(target, 20, requests=4, release_seconds=8)
+def test_twenty_stalled_clients_keep_nobody_from_working_and_are_let_go(hasty: Target) -> None:
+    figures = stalled_clients(hasty, 20, requests=4, release_seconds=12)
     assert figures.stalled == dict.fromkeys(PLACES, 5) == figures.released
     assert figures.ratio < 50  # beside a few that wait for ever it would be endless; measured 1.5
-    assert len(target.files()) == sum(len(parcel(number)) for number in sent_beside(requests=4))
+    assert len(hasty.files()) == sum(len(parcel(number)) for number in sent_beside(requests=4))
 
 
 def sent_beside(requests: int) -> range:
@@ -75,18 +85,18 @@ def test_two_hundred_uploads_at_once_become_one_shape_for_each_content(target: T
     assert figures.answers[202] == 50
 
 
-def test_a_stalled_body_is_told_what_happened(target: Target) -> None:
-    with connected(target.address) as connection:
-        connection.sendall(target.upload_head("Content-Length: 9999") + form(parcel(TEXTURED))[:100])
+def test_a_stalled_body_is_told_what_happened(hasty: Target) -> None:
+    with connected(hasty.address) as connection:
+        connection.sendall(hasty.upload_head("Content-Length: 9999") + form(parcel(TEXTURED))[:100])
         reply = read_reply(connection)
     assert (reply.status, reply.code) == (408, "slow_body")
     assert "100 bytes" in reply.json()["detail"]
 
 
-def test_a_body_that_trickles_for_too_long_is_given_up(target: Target) -> None:
+def test_a_body_that_trickles_for_too_long_is_given_up(hasty: Target) -> None:
     stop = threading.Event()
-    with connected(target.address) as connection:
-        connection.sendall(target.upload_head("Content-Length: 9999999") + form(parcel(TEXTURED))[:100])
+    with connected(hasty.address) as connection:
+        connection.sendall(hasty.upload_head("Content-Length: 9999999") + form(parcel(TEXTURED))[:100])
 
         def trickle() -> None:
             while not stop.wait(0.2):
@@ -101,14 +111,14 @@ def test_a_body_that_trickles_for_too_long_is_given_up(target: Target) -> None:
         stop.set()
         feeder.join()
     assert (reply.status, reply.code) == (408, "slow_body")
-    assert target.files() == set()
+    assert hasty.files() == set()
 
 
 def test_an_upload_that_would_eat_the_reserve_is_refused_and_reads_go_on(tmp_path: Path) -> None:
     with serving(settings_for(tmp_path, workers=0, reserve_bytes=2**60)) as running:
         problem(running.add({"a.ply": coloured_triangle()}, wait=0), 507, "storage_full")
         assert running.client.get("/v1/shapes").status_code == 200
-        assert Target(address=running.address, folder=tmp_path).files() == set()
+        assert target_of(running).files() == set()
 
 
 def test_a_disk_that_fills_up_during_an_upload_is_told_and_recovers(
