@@ -1,5 +1,7 @@
 """A PLY header is held to what it says."""
 
+import time
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -25,6 +27,17 @@ def test_the_body_begins_after_one_line_end_of_any_system(end: bytes, mark: byte
     header = read_header(data + b"\n\x01")  # the body's first byte looks like a line end
     assert header.body == len(data)
     assert [element.name for element in header.elements] == ["vertex", "face"]
+
+
+def test_a_header_of_many_properties_and_elements_takes_no_time_squared() -> None:
+    lines = [f"property float p{number}" for number in range(36_000)]
+    lines += [f"element e{number} 0\nproperty char a" for number in range(5_000)]
+    data = GOOD.replace(b"element face", "\n".join([*lines, "element face"]).encode())
+    start = time.process_time()
+    header = read_header(data)
+    assert time.process_time() - start < 10  # a second or less; a minute where each name meets all others
+    assert len(header.elements) == 5_002
+    assert len(header.elements[0].properties) == 36_003
 
 
 def test_textures_are_named_by_comments() -> None:

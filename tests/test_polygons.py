@@ -1,5 +1,7 @@
 """Polygons keep their area, direction and order when they are split."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -25,6 +27,17 @@ def star(radii: list[float]) -> FloatArray:
     flat = np.stack([np.cos(angles) * radii, np.sin(angles) * radii], axis=1)
     points: FloatArray = flat @ np.array([[1.0, 0.0, 0.3], [0.0, 1.0, -0.8]])
     return points
+
+
+def test_a_long_polygon_needs_memory_for_its_corners_not_for_their_square() -> None:
+    points = star([1.0, 2.0] * 2_000)
+    tracemalloc.start()
+    try:
+        assert len(split(points)) == len(points) - 2
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert peak < 1_000 * len(points)  # bytes; eight times the square would be 128 MB
 
 
 @given(st.lists(st.floats(0.1, 10), min_size=4, max_size=30))

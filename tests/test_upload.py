@@ -10,7 +10,7 @@ import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.mesh_files import TEXTURED, attempt, ply_binary, png, read, refusal
+from tests.mesh_files import TEXTURED, attempt, ply_binary, ply_header, png, read, refusal
 from worker.errors import Code, MeshError
 from worker.geometry.repair import repair
 from worker.reading.limits import Limits
@@ -26,6 +26,22 @@ def zipped(files: dict[str, bytes]) -> bytes:
         for name, data in files.items():
             archive.writestr(name, data)
     return stream.getvalue()
+
+
+def test_every_image_that_a_ply_names_must_be_there_and_whole_though_no_face_shows_it() -> None:
+    header = ply_header("ascii", 3, 1).replace(
+        b"element vertex", b"comment TextureFile t.png\nelement vertex"
+    )
+    header = header.replace(b"end_header", b"property list uchar float texcoord\nend_header")
+    mesh = header + b"0 0 0\n1 0 0\n0 1 0\n3 0 1 2 0\n"
+    for files, code in (
+        ({"m.ply": mesh}, Code.MISSING_TEXTURE),
+        ({"m.ply": mesh, "t.png": b"no image"}, Code.BAD_IMAGE),
+    ):
+        assert refusal(files) == code
+        assert attempt(lambda files=files: inspect_upload(Upload(files=files))) == code  # type: ignore[misc]
+    assert read({"m.ply": mesh}, allow_untextured=True).colour == Colour.NONE
+    assert read({"m.ply": mesh, "t.png": png()}).textures == ()
 
 
 def test_a_zip_reads_as_its_files_do() -> None:

@@ -1,5 +1,7 @@
 """What the headers of an upload's files tell, without reading the mesh itself."""
 
+from collections.abc import Iterable
+
 from worker.reading.assembling import find_texture
 from worker.reading.contents import TextureMap
 from worker.reading.limits import Limits
@@ -31,11 +33,25 @@ def inspect_files(files: SentFiles, name: str, limits: Limits, *, allow_untextur
         What `read_mesh` would raise, where that can be seen.
     """
     if name.lower().endswith(".ply"):
-        header = read_header(files[name])
-        check_promise(header, len(files[name]), limits)
-        maps = texture_maps(header, name) if has_texture_coordinates(header) else []
+        inspect_ply(files, name, limits, allow_untextured=allow_untextured)
     else:
-        maps = _obj_maps(files, name, allow_untextured)
+        _check_images(_obj_maps(files, name, allow_untextured), files, limits, allow_untextured)
+
+
+def inspect_ply(files: SentFiles, name: str, limits: Limits, *, allow_untextured: bool) -> None:
+    """Look at the header of a PLY file and at every image that it names; otherwise as `inspect_files`.
+
+    Which of its images the faces use is told by the faces alone: all must be there.
+    """
+    header = read_header(files[name])
+    check_promise(header, len(files[name]), limits)
+    maps = texture_maps(header, name) if has_texture_coordinates(header) else []
+    _check_images(maps, files, limits, allow_untextured)
+
+
+def _check_images(
+    maps: Iterable[TextureMap], files: SentFiles, limits: Limits, allow_untextured: bool
+) -> None:
     found = [find_texture(texture, files, allow_untextured) for texture in maps]
     for image in dict.fromkeys(path for path in found if path is not None):
         check_image(files[image], image, limits)

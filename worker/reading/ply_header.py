@@ -113,7 +113,7 @@ class _Builder:
 
     def __init__(self) -> None:
         self.format: str | None = None
-        self.elements: list[tuple[str, int, list[Property]]] = []
+        self.elements: dict[str, tuple[int, dict[str, Property]]] = {}  # rows, and properties by name
         self.texture_files: list[str] = []
         self.unknown: list[str] = []
 
@@ -142,20 +142,20 @@ class _Builder:
     def _take_element(self, words: list[str]) -> None:
         if len(words) != 3 or not (words[2].isascii() and words[2].isdigit()) or len(words[2]) > 18:
             raise _bad(f"expected “element”, a name and a count, found {shown(' '.join(words))}")
-        if any(words[1] == name for name, _, _ in self.elements):
+        if words[1] in self.elements:
             raise _bad(f"the element {shown(words[1])} is declared twice")
         if not words[1].isprintable() or len(words[1]) > LONGEST_NAME:
             raise _bad(f"expected the name of an element, found {shown(words[1])}")
-        self.elements.append((words[1], int(words[2]), []))
+        self.elements[words[1]] = (int(words[2]), {})
 
     def _take_property(self, words: list[str]) -> None:
         if not self.elements:
             raise _bad("a property stands before the first element")
         field = _read_property(words)
-        fields = self.elements[-1][2]
-        if any(other.name == field.name for other in fields):
+        _, fields = self.elements[next(reversed(self.elements))]
+        if field.name in fields:
             raise _bad(f"the property {shown(field.name)} is declared twice")
-        fields.append(field)
+        fields[field.name] = field
 
     def finish(self, body: int) -> Header:
         if self.format is None:
@@ -163,8 +163,8 @@ class _Builder:
         return Header(
             byte_order=BYTE_ORDERS[self.format],
             elements=tuple(
-                Element(name=name, count=count, properties=tuple(fields))
-                for name, count, fields in self.elements
+                Element(name=name, count=count, properties=tuple(fields.values()))
+                for name, (count, fields) in self.elements.items()
                 if fields  # rows without properties take no room
             ),
             texture_files=tuple(self.texture_files),

@@ -45,7 +45,7 @@ def triangulate(vertices: FloatArray, corners: IntArray, counts: IntArray) -> tu
         polygons = np.flatnonzero(counts == size)
         positions = offsets[polygons, None] + np.arange(size)  # (p, size)
         split, owners = _split(vertices[corners[positions]])
-        triangles.append(np.take_along_axis(positions[owners], split, axis=1))
+        triangles.append(offsets[polygons[owners], None] + split)
         sources.append(polygons[owners])
     return _in_file_order(triangles, sources)
 

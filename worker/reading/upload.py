@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from worker.reading.archive import list_archive, unpack
 from worker.reading.assembling import assemble
-from worker.reading.inspection import inspect_files
+from worker.reading.inspection import inspect_files, inspect_ply
 from worker.reading.limits import Limits
 from worker.reading.mesh import Mesh
 from worker.reading.obj import read_obj
@@ -43,6 +43,7 @@ def read_mesh(upload: Upload, limits: Limits = Limits()) -> Mesh:
     name = mesh_name(contents)
     files = SentFiles(contents)
     if name.lower().endswith(".ply"):
+        inspect_ply(files, name, limits, allow_untextured=upload.allow_untextured)
         surface = read_ply(files[name], name, limits)
     else:
         surface = read_obj(files[name], name, files, allow_untextured=upload.allow_untextured)
