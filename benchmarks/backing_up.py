@@ -6,6 +6,7 @@
 import argparse
 import hashlib
 import os
+import resource
 import subprocess
 import sys
 import tempfile
@@ -52,17 +53,22 @@ def _put(library: Library, key: str, data: bytes) -> None:
     path.write_bytes(data)
 
 
-def timed(*command: str | Path) -> tuple[float, float]:
-    """Run a command; return its seconds and the largest memory it had, in MB."""
+def timed(*command: str | Path) -> tuple[float, float, float]:
+    """Run a command; return its seconds, those of a processor, and the largest memory it had, in MB."""
     os.sync()
-    start, largest = time.perf_counter(), 0.0
+    start, busy, largest = time.perf_counter(), _busy_seconds(), 0.0
     with subprocess.Popen([*map(str, command)], stdout=subprocess.DEVNULL) as process:  # noqa: S603 - ours
         while process.poll() is None:
             largest = max(largest, _largest_memory(process.pid))
             time.sleep(0.01)
     if process.returncode != 0:
         raise RuntimeError(f"{command} ended with {process.returncode}")
-    return time.perf_counter() - start, largest
+    return time.perf_counter() - start, _busy_seconds() - busy, largest
+
+
+def _busy_seconds() -> float:
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def _largest_memory(pid: int) -> float:
@@ -88,8 +94,8 @@ def main() -> None:
             "starting alone": (sys.executable, "-c", "import service.commands.backing_up"),
         }
         for title, command in steps.items():
-            seconds, memory = timed(*command)
-            print(f"{title:36} {seconds:8.2f} s {memory:8.0f} MB", flush=True)
+            seconds, busy, memory = timed(*command)
+            print(f"{title:36} {seconds:8.2f} s, busy {busy:6.2f} s, {memory:6.0f} MB", flush=True)
         print(f"{chosen.shapes} shapes, {packed.stat().st_size / 1e6:.0f} MB")
 
 
