@@ -71,9 +71,7 @@ def create_app(
         docs_url=None,  # FastAPI's own pages load scripts from elsewhere; ours is in routes.page
         redoc_url=None,
     )
-    app.add_middleware(
-        LimitBodyTime, idle_seconds=settings.body_idle_seconds, seconds=settings.body_seconds
-    )
+    app.add_middleware(LimitBodyTime, idle_seconds=settings.body_idle_seconds, seconds=settings.body_seconds)
     app.add_middleware(AnswerUnexpected)
     app.add_middleware(AnswerHead)
     app.add_middleware(ReplacePlainErrors)
