@@ -4,6 +4,7 @@ It may crash, hang or run out of memory: whoever reads its lines (`watching.py`)
 """
 
 import faulthandler
+import gc
 import importlib
 import json
 import math
@@ -16,6 +17,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import cast
 
+from service.jobs.rehearsal import rehearse
 from soak.fuzzing.judging import ACCEPTED, Reader, Verdict, judge
 from soak.fuzzing.mutating import Mutants
 from soak.fuzzing.seeds import collect_seeds
@@ -52,10 +54,10 @@ def _answers(order: Order) -> Iterator[dict[str, object]]:
     mutants = Mutants(collect_seeds([Path(folder) for folder in order.folders]), order.run)
     module, name = order.reader.split(":")
     reader = cast("Reader", getattr(importlib.import_module(module), name))
-    for seed_number in (0, 1) if order.reader == Order.reader else ():
-        judge(
-            mutants.make(seed_number), whole=True
-        )  # what is compiled is compiled before anything is limited
+    if order.whole_every:
+        rehearse()  # what is compiled is compiled before anything is limited
+    gc.collect()
+    gc.freeze()  # what the compiler left takes seconds to free, which would be some mutant's
     _limit_memory(order.memory_bytes)
     yield {"ready": True}
     for number in range(order.first, order.end, order.step):

@@ -74,7 +74,8 @@ def _one_process(order: Order, silence: float, bounds: Path | None) -> Iterator[
                 else:
                     yield Judged(**answer)
                     number = answer["number"] + order.step
-            child.wait()  # it closed its end
+            if number is None or number < order.end:
+                child.wait()  # it died: how is told by its exit code
         except TimeoutError:
             pass  # it hangs, and is ended
         finally:
