@@ -13,8 +13,9 @@ from index.errors import CatalogueBusy, StorageFull
 from index.shapes import Shape, Status
 from service.app import child_limits
 from service.intake.submissions import receive_paths
+from service.jobs.child import ChildError
 from service.jobs.pool import ProcessPerJob
-from service.jobs.workers import Worker
+from service.jobs.workers import Attempt, Worker
 from service.library import Library
 from service.retrieval import accept_upload, remove_shape
 from tests.fakes import coloured_triangle, describe_quickly
@@ -89,6 +90,22 @@ def accept(library: Library, name: str, content: bytes | None = None) -> str:
 def settled(library: Library, shape_id: str) -> Shape:
     wait_until(lambda: library.catalogue.get(shape_id).status in (Status.READY, Status.FAILED))
     return library.catalogue.get(shape_id)
+
+
+def test_a_shape_removed_while_it_is_described_is_no_defect(
+    library: Library, caplog: pytest.LogCaptureFixture
+) -> None:
+    caplog.set_level("INFO")
+    gone = accept(library, "gone.ply")
+    job = library.queue.claim("worker", 60)
+    assert job is not None
+    remove_shape(library, gone)
+    described: Future[Any] = Future()
+    described.set_exception(ChildError("FileNotFoundError: its files are gone"))
+    worker = Worker(library, SameThread(), slots=1, name="worker")
+    worker._settle(described, Attempt(job=job, tries=1, started=0))  # step by step: no clock decides
+    assert any("is not ours any more" in line for line in caplog.messages)
+    assert not [record for record in caplog.records if record.levelname == "ERROR"]
 
 
 @pytest.mark.parametrize(

@@ -198,8 +198,9 @@ class Worker:
         except ChildDied as error:
             return self._retry(attempt, str(error))
         except ChildError as error:
-            log.error("describing shape %s failed unexpectedly:\n%s", job.shape_id, error)
-            return self._fail(job, UNEXPECTED, UNEXPECTED_DETAIL)
+            code = self._fail(job, UNEXPECTED, UNEXPECTED_DETAIL)  # raises where the shape was removed: its
+            log.error("describing shape %s failed unexpectedly:\n%s", job.shape_id, error)  # files are gone
+            return code
 
     def _retry(self, attempt: Attempt, reason: str) -> str | None:
         log.warning("shape %s, try %d: %s", attempt.job.shape_id, attempt.tries, reason)
