@@ -25,6 +25,7 @@ from tests.serving import open_fake_library, settings_for
 from worker.reading.limits import Limits
 from worker.reading.upload import Upload, read_mesh
 
+Rows = dict[str, list[dict[str, Any]]]  # of each table
 Parts = dict[str, bytes]  # an archive's members, in their order
 
 
@@ -97,7 +98,7 @@ def exported(folder: Path, name: str = "library.tar") -> Path:
     return folder / name
 
 
-def rows_of(library: Library) -> dict[str, list[dict[str, Any]]]:
+def rows_of(library: Library) -> Rows:
     """Return every row of every table, in the order of the tables' names."""
     with reading(library.engine) as session:
         connection = session.connection()
@@ -106,6 +107,16 @@ def rows_of(library: Library) -> dict[str, list[dict[str, Any]]]:
             name: sorted((dict(row) for row in connection.execute(select(table)).mappings()), key=repr)
             for name, table in sorted(tables.items())
         }
+
+
+def released(rows: Rows) -> Rows:
+    """Return the rows as an export has them: whoever held a job holds it no longer."""
+    for job in rows["jobs"]:
+        job.update(attempts=0, lease_until=None, worker=None, token=None)
+    for shape in rows["shapes"]:
+        if shape["status"] == "processing":
+            shape["status"] = "queued"
+    return {name: sorted(table, key=repr) for name, table in rows.items()}
 
 
 def files_of(library: Library) -> dict[str, bytes]:

@@ -1,12 +1,11 @@
 """What was exported comes back: every row, every file, every answer."""
 
-import os
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from index.errors import CatalogueBusy, DamagedExport, LibraryNotEmpty, NewerFormat, StorageFull
+from index.errors import LibraryNotEmpty, NewerFormat
 from index.keys import Keys
 from index.methods import METHODS
 from index.scopes import Scope
@@ -29,22 +28,10 @@ from tests.backups import (
     forged,
     opened,
     parts_of,
+    released,
     rows_of,
 )
-from tests.commanding import start
 from tests.made_migrations import pretend_newer, pretend_older
-
-Rows = dict[str, list[dict[str, Any]]]
-
-
-def released(rows: Rows) -> Rows:
-    """Return the rows as an export has them: whoever held a job holds it no longer."""
-    for job in rows["jobs"]:
-        job.update(attempts=0, lease_until=None, worker=None, token=None)
-    for shape in rows["shapes"]:
-        if shape["status"] == "processing":
-            shape["status"] = "queued"
-    return {name: sorted(table, key=repr) for name, table in rows.items()}
 
 
 def answers(library: Library) -> list[Any]:
@@ -229,86 +216,6 @@ def test_an_index_that_was_saved_later_is_not_believed(tmp_path: Path) -> None:
         assert distance(library, one, shape) < found / 2
 
 
-def test_an_import_that_fails_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    archive = exported(tmp_path)
-    with opened(tmp_path / "to") as library:
-        rows = rows_of(library)
-
-        def full(*_: object) -> None:
-            raise StorageFull("the disk is full")
-
-        with monkeypatch.context() as patch:
-            patch.setattr(importing, "replace_library", full)
-            with pytest.raises(StorageFull):
-                import_library(library, archive)
-        assert (rows_of(library), files_of(library)) == (rows, {})
-        assert import_library(library, archive).shapes == 7
-
-
-KILLED = """
-import os, sys
-from pathlib import Path
-from service.backup import importing
-from tests.backups import add_queued, describe, fail, opened
-importing.replace_library = lambda *_: os._exit(9)
-with opened(Path(sys.argv[2])) as library:
-    importing.import_library(library, Path(sys.argv[1]))
-"""
-
-
-def test_an_import_that_is_killed_can_be_repeated(tmp_path: Path) -> None:
-    archive = exported(tmp_path)
-    with start(archive, tmp_path / "to", script=KILLED) as process:
-        assert process.wait() == 9, process.communicate()
-    with opened(tmp_path / "to") as library, opened(tmp_path / "from") as before:
-        assert library.catalogue.list().items == ()
-        assert files_of(library) == files_of(before)
-        assert import_library(library, archive).shapes == 7
-        assert rows_of(library) == released(rows_of(before))
-        assert list((tmp_path / "to" / "incoming").rglob("*.sqlite3")) == []
-
-
-def test_what_a_killed_import_left_is_swept(tmp_path: Path) -> None:
-    archive = exported(tmp_path)
-    with start(archive, tmp_path / "to", script=KILLED) as process:
-        assert process.wait() == 9, process.communicate()
-    with opened(tmp_path / "to") as library:
-        assert sweep(library, older_than=-1) > 0
-        assert files_of(library) == {}
-
-
-def test_two_imports_into_one_library_do_not_meet(tmp_path: Path) -> None:
-    archive = exported(tmp_path)
-    with opened(tmp_path / "to") as library, opened(tmp_path / "to") as other:
-        with importing._alone(library), pytest.raises(CatalogueBusy, match="another import"):
-            import_library(other, archive)
-        assert import_library(other, archive).shapes == 7
-
-
-def test_files_of_a_long_import_are_kept_from_the_sweeper(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    archive = exported(tmp_path)
-    put = importing._put_files
-    with opened(tmp_path / "to") as library, opened(tmp_path / "from") as before:
-
-        def put_and_sweep(*arguments: Any) -> int:
-            count = put(*arguments)
-            if len(arguments) == 4:  # the first round
-                for key in list(library.files.keys())[:5]:
-                    library.files.delete(key)
-                for key in library.files.keys():  # noqa: SIM118 - no mapping
-                    os.utime(library.files.path(key), (0, 0))
-            return count
-
-        monkeypatch.setattr(importing, "_put_files", put_and_sweep)
-        monkeypatch.setattr(importing, "_LONG", -1.0)
-        import_library(library, archive)
-        assert files_of(library) == files_of(before)
-        ages = [library.files.path(key).stat().st_mtime for key in library.files.keys()]  # noqa: SIM118
-        assert min(ages) > 0
-
-
 def test_damage_from_before_the_export_is_told_and_the_rest_comes(tmp_path: Path) -> None:
     with opened(tmp_path / "from") as library:
         one, other = add_ready(library, 10), add_ready(library, 60)
@@ -323,20 +230,3 @@ def test_damage_from_before_the_export_is_told_and_the_rest_comes(tmp_path: Path
         ("file_missing", one.id, f"shapes/{one.id}/thumbnail.png"),
         ("file_altered", other.id, other.files[0].key),
     }
-
-
-def test_an_archive_that_changes_after_it_was_checked_is_refused(tmp_path: Path) -> None:
-    archive = exported(tmp_path)
-    place = archive.read_bytes().rindex(b"ply\nformat")  # far from what is read at once
-
-    def change(what: str, _: int, __: int) -> None:
-        if what == "Importing":
-            with archive.open("r+b") as file:
-                file.seek(place)
-                file.write(b"PLY")
-
-    with opened(tmp_path / "to") as library:
-        with pytest.raises(DamagedExport, match="altered during the import"):
-            import_library(library, archive, change)
-        assert files_of(library) == {}
-        assert library.catalogue.list().items == ()
