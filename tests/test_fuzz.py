@@ -93,6 +93,8 @@ def test_a_zip_is_packed_whole_again() -> None:
     inside: Mapping[str, bytes] = containers.members(SEEDS["written/zip-deflated"]["a.zip"])
     assert containers.members(containers.pack(inside, drawn(1))) == inside
     assert containers.members(b"PK\x05\x06") == {}
+    odd = {"\udcff.ply": b"1", "a\0b": b"2", "a\0c": b"3", "": b"4"}
+    assert containers.members(containers.pack(odd, drawn(1))) == {"?.ply": b"1", "a": b"3", "": b"4"}
 
 
 def test_a_missing_file_is_named_again() -> None:

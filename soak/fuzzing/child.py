@@ -34,7 +34,7 @@ class Order:
     step: int = 1  # from one to the next
     reader: str = "worker.reading.upload:read_mesh"  # module and name
     again_every: int = 50  # one mutant of so many is read twice
-    whole_every: int = 50  # one mutant of so many is described, where it is accepted; 0: none
+    whole_every: int = 10  # one mutant of so many is described, where it is accepted; 0: none
     cpu_seconds: int = 10  # of one mutant
     memory_bytes: int = 2 * 2**30  # address space beyond what the program itself takes
 

@@ -72,7 +72,9 @@ def members(data: bytes) -> Mapping[str, bytes]:
 
 def pack(files: Mapping[str, bytes], rng: Random) -> bytes:
     """Return a zip whose files are whole, so that what is damaged in them is reached."""
-    return archive(files, rng.choice((zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)))
+    # Half characters and what follows a zero byte cannot be written into a zip's list.
+    writable = {name.partition("\0")[0].encode("utf-8", "replace").decode(): files[name] for name in files}
+    return archive(writable, rng.choice((zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)))
 
 
 def change_png_chunk(data: bytes, rng: Random) -> bytes:

@@ -55,7 +55,7 @@ def judge(mutant: Mutant, reader: Reader = read_mesh, *, again: bool = False, wh
             outcome = _described(upload)
     except Broken as broken:
         return Verdict(outcome="broken", failure=str(broken))
-    except (Exception, MemoryError):  # noqa: BLE001 - whatever is raised but a refusal is what is looked for
+    except Exception:  # noqa: BLE001 - whatever is raised but a refusal is what is looked for
         return Verdict(outcome="raised", failure=traceback.format_exc())
     return Verdict(outcome=outcome)
 
