@@ -123,12 +123,15 @@ class FileStore:
         self._prune(path.parent)
 
     def keys(self, prefix: str = "") -> Iterator[str]:
-        """Yield the keys under the folder `prefix` (all without one), in order."""
+        """Yield the keys under the folder `prefix` (all without one), in order.
+
+        What we cannot have made, such as ``.DS_Store``, is not ours to tell of.
+        """
         start = self.path(prefix) if prefix else self._root
         for path in sorted(start.rglob("*")):
-            relative = path.relative_to(self._root)
-            if relative.parts[0] != _INCOMING and path.is_file():
-                yield relative.as_posix()
+            key = path.relative_to(self._root).as_posix()
+            if _KEY.fullmatch(key) and path.is_file():
+                yield key
 
     def sweep(self, older_than_seconds: float) -> int:
         """Remove half-written files that a killed process left; return how many."""

@@ -36,3 +36,12 @@ def test_young_files_may_belong_to_an_upload_under_way(library: Library) -> None
     library.files.put("uploads/under-way/0", b"its row follows")
     assert sweep(library) == 0
     assert list(library.files.keys()) == ["uploads/under-way/0"]
+
+
+def test_what_file_managers_leave_behind_stops_no_sweep_and_is_left_alone(library: Library) -> None:
+    library.files.put("uploads/killed/0", b"never got a row")
+    strange = library.files.path("uploads") / ".DS_Store"
+    strange.write_bytes(b"of a file manager")
+    assert sweep(library, older_than=0) == 1
+    assert strange.exists()
+    assert list(library.files.keys()) == []

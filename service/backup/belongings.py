@@ -1,7 +1,6 @@
 """Which files a shape needs."""
 
 from collections.abc import Iterator
-from contextlib import suppress
 
 from index.dumping import Belongings
 from index.files import FileStore
@@ -19,15 +18,8 @@ def needed_files(shape: Belongings) -> dict[str, StoredFile | None]:
 
 def present_files(files: FileStore, shape: Belongings) -> dict[str, StoredFile | None]:
     """Return those keys, and those of everything else that is kept for the shape."""
-    others = dict.fromkeys(key for key in files.keys(f"shapes/{shape.id}") if _is_key(files, key))
+    others = dict.fromkeys(files.keys(f"shapes/{shape.id}"))
     return others | needed_files(shape)
-
-
-def _is_key(files: FileStore, key: str) -> bool:
-    """Tell a file of ours from what file managers leave behind, such as ``.DS_Store``."""
-    with suppress(ValueError):
-        return bool(files.path(key))
-    return False
 
 
 def made_prefix(shape_id: str) -> str:

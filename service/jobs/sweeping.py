@@ -5,6 +5,7 @@ import time
 from service.library import Library
 
 HOUR = 3600.0  # seconds
+BATCH = 500  # shapes in one question to the catalogue
 
 
 def sweep(library: Library, older_than: float = HOUR) -> int:
@@ -19,18 +20,32 @@ def sweep(library: Library, older_than: float = HOUR) -> int:
         Age in seconds; younger ones may belong to an upload that is under way.
     """
     swept = library.files.sweep(older_than)
-    needed = library.catalogue.file_keys()
     newest = time.time() - older_than  # moment
-    for key in [*library.files.keys("uploads"), *library.files.keys("shapes")]:
-        if key not in needed and not _belongs(library, key) and _changed(library, key) <= newest:
+    for key in _unneeded(library):
+        if _changed(library, key) <= newest:
             library.files.delete(key)
             swept += 1
     return swept
 
 
-def _belongs(library: Library, key: str) -> bool:
-    kind, owner = key.split("/")[:2]
-    return kind == "shapes" and owner in library.catalogue.get_many([owner])
+def _unneeded(library: Library) -> list[str]:
+    """Return the keys of files that belong to no shape."""
+    needed = library.catalogue.file_keys()
+    keys = [*library.files.keys("uploads"), *library.files.keys("shapes")]
+    known = _known(library, {_owner(key) for key in keys if key.startswith("shapes/")})
+    return [key for key in keys if key not in needed and _owner(key) not in known]
+
+
+def _known(library: Library, owners: set[str]) -> set[str]:
+    """Return those of the ids that are shapes."""
+    listed, known = sorted(owners), set[str]()
+    for start in range(0, len(listed), BATCH):
+        known |= library.catalogue.get_many(listed[start : start + BATCH]).keys()
+    return known
+
+
+def _owner(key: str) -> str:
+    return key.split("/")[1]
 
 
 def _changed(library: Library, key: str) -> float:
