@@ -38,7 +38,7 @@ class Order:
     folder: Path  # empty, for the part alone
     seed: int
     scale: float  # 1: the whole soak; less for a try
-    meshes: Path | None  # meshes to be mutated beside those made in code
+    meshes: Path | None  # folders of meshes to be mutated beside those made in code
     report: Report
 
     def many(self, count: int) -> int:
@@ -56,7 +56,7 @@ class Outcome:
 
 def mutants(order: Order) -> Outcome:
     """Give damaged files to the readers."""
-    folders = [order.meshes] if order.meshes else []
+    folders = sorted(path for path in order.meshes.iterdir() if path.is_dir()) if order.meshes else []
     result = fuzz.run(order.many(50_000), order.seed, folders=folders, report=order.report)
     slowest = f", the slowest took {result.slowest.cpu:.1f} s" if result.slowest else ""
     figures = (
