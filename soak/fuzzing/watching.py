@@ -96,8 +96,13 @@ def _death(number: int, exit_code: int, said: str) -> Judged:
     return Judged(
         number=number,
         outcome="hang" if exit_code in how else "crash",
-        failure=f"{said}\nthe process {how.get(exit_code, 'died')} (exit code {exit_code})",
+        failure=f"{said}\nthe process {how.get(exit_code, 'died')} ({_way_of(exit_code)})",
     )
+
+
+def _way_of(exit_code: int) -> str:
+    """Name how a process ended: what it said may have been cut."""
+    return f"exit code {exit_code}, {signal.strsignal(-exit_code) if exit_code < 0 else 'of its own'}"
 
 
 def _lines(stream: IO[bytes], silence: float) -> Iterator[bytes]:
