@@ -25,7 +25,7 @@ check: setup
 	$(VENV)/bin/lint-imports
 	$(PYTHON) -m soak.audit requirements.lock
 
-# Breaks the service on purpose for about half an hour: kills, mutants, cut and stalled uploads, full disks; fills docs/promises.md
+# Breaks the service on purpose for about a quarter of an hour: kills, mutants, cut and stalled uploads, full disks; fills docs/promises.md
 soak: setup
 	$(PYTHON) -m soak
 

@@ -1,4 +1,4 @@
-"""`make soak`, or `python -m soak [PART …] [--scale 0.1]`: half an hour of harm fills docs/promises.md."""
+"""`make soak`, or `python -m soak [PART …] [--scale 0.1]`: harm is done, and docs/promises.md filled."""
 
 import secrets
 import sys

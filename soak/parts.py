@@ -28,6 +28,7 @@ ENVIRONMENT = {
     "OMP_NUM_THREADS": "1",
     "OPENBLAS_NUM_THREADS": "1",
 }
+NAMED = {"api": "the API", "worker": "the worker", "child": "a child"}
 WHOLE = [number for number in range(1, 20) if kind_of(number) != "empty"][:10]
 
 
@@ -69,10 +70,11 @@ def mutants(order: Order) -> Outcome:
 def kills(order: Order) -> Outcome:
     """Kill the service again and again."""
     found = crashes.run(order.folder, order.many(100), order.seed, lambda done: order.report(f"{done} kills"))
-    harm = ", ".join(f"{what} {count}" for what, count in sorted(found.harm.items()))
+    targets = ", ".join(f"{found.harm[target]} of {NAMED[target]}" for target in crashes.TARGETS)
     figures = (
-        f"{crashes.kills_of(found.harm)} kills ({harm}); {found.acknowledged} uploads acknowledged, "
-        f"{found.removed} removals, {found.answers.total()} requests: {len(found.broken)} promises broken"
+        f"{crashes.kills_of(found.harm)} kills ({targets}), {found.harm['damaged']} index files damaged, "
+        f"{found.harm['paused']} workers put to sleep; {found.acknowledged} uploads acknowledged, "
+        f"{found.removed} removals, {found.answers.total()} requests"
     )
     return Outcome(figures=figures, broken=tuple(found.broken))
 
@@ -130,7 +132,7 @@ def full_disk(order: Order) -> Outcome:
     wrong += [f"{name} is {state}" for name, state in found.states.items() if state != "ready"]
     return Outcome(
         figures="uploads 507, reads 200, removals 204, also after a restart on the full disk; an upload was "
-        f"accepted {found.seconds_to_recover:.1f} s after there was room, and no job was lost",
+        f"accepted {found.seconds_to_recover:.2f} s after there was room, and no job was lost",
         broken=tuple(wrong),
     )
 
@@ -154,8 +156,7 @@ def contract(order: Order) -> Outcome:
         url = f"http://{target.address.host}:{target.address.port}"
         found = check_contract(url, KEY, examples=order.many(300), seed=order.seed)
     return Outcome(
-        figures=f"{found.requests} requests to {len(found.answers)} calls: "
-        f"{sum(found.failures.values())} answers against the description",
+        figures=f"{found.requests} requests to {len(found.answers)} calls, answered as described",
         broken=tuple(f"{what} ({count} times)" for what, count in found.failures.items()),
     )
 
