@@ -4,6 +4,7 @@ from sqlalchemy import Engine
 
 from index.acceptance import Acceptance
 from index.descriptions import Descriptions
+from index.dismissals import Dismissals
 from index.editing import Editing
 from index.listing import Listing
 from index.questions import Questions
@@ -12,7 +13,17 @@ from index.stored_blocks import StoredBlocks
 from index.stored_vocabularies import Vocabularies
 
 
-class Catalogue(Acceptance, Editing, Descriptions, Revisions, StoredBlocks, Vocabularies, Listing, Questions):
+class Catalogue(
+    Acceptance,
+    Editing,
+    Descriptions,
+    Revisions,
+    StoredBlocks,
+    Vocabularies,
+    Listing,
+    Questions,
+    Dismissals,
+):
     """Shapes, their descriptors and vocabularies; each of the classes above is one of its concerns.
 
     Safe to share between threads; other processes may have their own on the same database.

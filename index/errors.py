@@ -15,6 +15,18 @@ class ShapeNotFound(CatalogueError):
     code = "not_found"
 
 
+class DismissalNotFound(CatalogueError):
+    """Nobody said that these two shapes are no duplicates."""
+
+    code = "not_dismissed"
+
+
+class NotAPair(CatalogueError):
+    """Two different shapes were needed, and one came twice."""
+
+    code = "not_a_pair"
+
+
 class FileMissing(CatalogueError):
     """The file store holds nothing under this key."""
 

@@ -58,6 +58,12 @@ class Listing:
             more = len(rows) > limit
             return Page(items=items, next_cursor=_cursor_of(rows[limit - 1].sequence) if more else None)
 
+    def ready_after(self, shape_id: str, limit: int) -> tuple[str, ...]:
+        """Return the ids of the next ready shapes in the order of ids, "" for the first."""
+        ready = select(ShapeRow.id).where(ShapeRow.status == Status.READY, ShapeRow.id > shape_id)
+        with reading(self._engine) as session:
+            return tuple(session.scalars(ready.order_by(ShapeRow.id).limit(limit)))
+
     def counts(self) -> Mapping[Status, int]:
         """Return how many shapes are in each state."""
         with reading(self._engine) as session:

@@ -30,6 +30,13 @@ class StoredBlocks:
                 raise NotReady("this shape has no descriptors")
             return _read(session, [shape_id], vocabulary_id, None)[shape_id]
 
+    def some_blocks(
+        self, shape_ids: Sequence[str], vocabulary_id: str, names: Collection[str]
+    ) -> dict[str, Blocks]:
+        """Return some blocks of a few shapes; a shape that is not there, or not ready, has none."""
+        with reading(self._engine) as session:
+            return _read(session, shape_ids, vocabulary_id, names)
+
     def block_rows(
         self,
         vocabulary_id: str | None,

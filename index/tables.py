@@ -6,6 +6,7 @@ from typing import Any
 from sqlalchemy import (
     JSON,
     BigInteger,
+    CheckConstraint,
     DateTime,
     Dialect,
     ForeignKey,
@@ -21,6 +22,7 @@ _NAMES = {  # fixed names, so that later migrations can name what they change
     "uq": "uq_%(table_name)s_%(column_0_name)s",
     "fk": "fk_%(table_name)s_%(column_0_name)s",
     "pk": "pk_%(table_name)s",
+    "ck": "ck_%(table_name)s_%(constraint_name)s",
 }
 
 
@@ -167,3 +169,16 @@ class ApiKeyRow(Base):
     scope: Mapped[str]
     created_at: Mapped[datetime]
     revoked_at: Mapped[datetime | None]
+
+
+class DismissalRow(Base):
+    """A pair of shapes that somebody said are no duplicates; the lesser id is the first."""
+
+    __tablename__ = "dismissals"
+    __table_args__ = (CheckConstraint("one < other", name="ordered"),)
+
+    one: Mapped[str] = mapped_column(ForeignKey("shapes.id", ondelete="CASCADE"), primary_key=True)
+    other: Mapped[str] = mapped_column(
+        ForeignKey("shapes.id", ondelete="CASCADE"), primary_key=True, index=True
+    )
+    created_at: Mapped[datetime]

@@ -6,9 +6,10 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from index.shapes import Shape, Status
+from service.asking import Question
 from service.intake.submissions import receive_paths
 from service.library import Library
-from service.retrieval import Answer, Question, accept_upload, find_similar
+from service.retrieval import Answer, accept_upload, find_similar
 from service.samples import Sample
 
 log = logging.getLogger(__name__)

@@ -13,6 +13,7 @@ from index.queue import Queue
 from index.searcher import Searcher
 from index.vocabulary import Vocabulary, default_vocabulary
 from service.intake.incoming import Incoming
+from service.relations.postures import Postures
 from service.reserve import Reserve
 from service.settings import Settings
 from worker.parameters import Parameters
@@ -36,6 +37,7 @@ class Library:
     searcher: Searcher
     parameters: Parameters  # of every description in this library
     limits: Limits  # on what is read
+    postures: Postures = field(default_factory=Postures)  # read before
     vocabularies: dict[str, Vocabulary] = field(default_factory=dict)  # read before; one id, one content
 
     @classmethod

@@ -12,6 +12,7 @@ from worker.arrays import FloatArray, SingleArray
 from worker.describe import Description, MeshFacts
 from worker.descriptors.landmarks import LADDER, pack
 from worker.parameters import Parameters
+from worker.pictures.preview import preview
 from worker.reading.limits import Limits
 from worker.reading.mesh import Mesh
 from worker.reading.upload import Upload, read_mesh
@@ -63,7 +64,7 @@ def fake_description(mesh: Mesh, parameters: Parameters) -> Description:
         },
         signatures=signatures,
         thumbnail=b"\x89PNG\r\n\x1a\n",
-        preview=b"glTF",
+        preview=preview(mesh.vertices, mesh.faces, np.tile(colour, (len(mesh.vertices), 1))),
     )
 
 

@@ -10,12 +10,13 @@ from index.keys import Keys
 from index.methods import METHODS
 from index.scopes import Scope
 from index.shapes import Shape, Status
+from service.asking import Question
 from service.backup import importing
 from service.backup.exporting import export_library
 from service.backup.importing import import_library
 from service.jobs.sweeping import sweep
 from service.library import Library
-from service.retrieval import Question, find_similar, remove_shape
+from service.retrieval import find_similar, remove_shape
 from tests.backups import (
     Parts,
     add_queued,

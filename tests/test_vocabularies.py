@@ -10,11 +10,12 @@ import pytest
 from index.errors import BadVocabulary
 from index.packing import rounded
 from index.shapes import Status
+from service.asking import Question
 from service.intake.submissions import receive_paths
 from service.jobs.recording import record_description
 from service.library import Library
 from service.quantisation import quantise
-from service.retrieval import Question, accept_upload, find_similar
+from service.retrieval import accept_upload, find_similar
 from service.storage import load_signatures
 from service.vocabularies import NoVocabulary, active_vocabulary, adopt_vocabulary, learn_vocabulary
 from tests.fakes import coloured_triangle, describe_quickly

@@ -26,8 +26,8 @@ def search(
 ) -> None:
     """Rank the library by similarity to each file. The files themselves are not kept."""
     with plain_failures():
+        from service.asking import Question
         from service.commands.searching import search_files  # heavy; --help must not wait for it
-        from service.retrieval import Question
 
         question = Question(limit=limit) if method is None else Question(method=method, limit=limit)
         search_files(files, data_dir, question, allow_untextured, json)

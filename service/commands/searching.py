@@ -9,6 +9,7 @@ from rich.console import Console
 from rich.table import Column, Table
 
 from index.shapes import Status
+from service.asking import Question, check_question
 from service.commands.companions import Companions
 from service.commands.discovery import Source, find_sources
 from service.commands.explaining import explain
@@ -17,7 +18,7 @@ from service.commands.opening import opened, pool_for, settings_for
 from service.intake.submissions import Submission, receive_paths
 from service.jobs.pool import ProcessPerJob
 from service.library import Library
-from service.retrieval import Answer, Question, check_question, search_upload
+from service.retrieval import Answer, search_upload
 
 
 def search_files(

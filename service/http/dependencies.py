@@ -10,6 +10,7 @@ from fastapi import Depends, Query, Request
 from fastapi.security import HTTPAuthorizationCredentials
 
 from index.methods import DEFAULT_METHOD, METHODS
+from service.asking import Question
 from service.http.guards import bearer, check_host, check_key, check_origin, check_rate
 from service.http.metrics import Metrics
 from service.http.turnstile import Turnstile
@@ -18,7 +19,6 @@ from service.intake.fields import read_weights
 from service.jobs.describing import Describe
 from service.key_ring import KeyRing
 from service.library import Library
-from service.retrieval import Question
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

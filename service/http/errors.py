@@ -55,6 +55,8 @@ TABLE: dict[type[Exception], tuple[HTTPStatus, str]] = {
     ForeignHost: (HTTPStatus.FORBIDDEN, "The service is open to this machine alone"),
     CrossOrigin: (HTTPStatus.FORBIDDEN, "Another site's page may not do this"),
     kept.ShapeNotFound: (HTTPStatus.NOT_FOUND, "There is no such shape"),
+    kept.DismissalNotFound: (HTTPStatus.NOT_FOUND, "There is no such dismissal"),
+    kept.NotAPair: (HTTPStatus.UNPROCESSABLE_ENTITY, "These are no two shapes"),
     kept.FileMissing: (HTTPStatus.NOT_FOUND, "There is no such file"),
     kept.NotReady: (HTTPStatus.CONFLICT, "The shape is not ready"),
     kept.NotFailed: (HTTPStatus.CONFLICT, "The shape did not fail"),

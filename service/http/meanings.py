@@ -56,6 +56,8 @@ MEANINGS: dict[str, str] = {
     "`faience learn-vocabulary`.",
     "bad_vocabulary": "The library's vocabulary cannot be read, or not be learnt from its shapes. "
     "The operator learns one anew with `faience learn-vocabulary`.",
+    "not_a_pair": "Both ids are the same. A shape is no duplicate of itself: name two shapes.",
+    "not_dismissed": "Nobody said that these two shapes are no duplicates: there is nothing to take back.",
     "not_failed": "Only a shape that failed can be tried again. This one did not: there is nothing to do.",
     # Of who asks.
     "unauthorised": "A key is needed, and none came, or one that is not known. "

@@ -55,6 +55,9 @@ QUESTION: tuple[Reason, ...] = (
     *(kept.UnknownMethod, kept.BadWeights, UnreadableWeights, kept.VocabularyChanged, NoVocabulary),
     *(kept.FingerprintMismatch, kept.BadBlock, kept.BadVocabulary),
 )
+NEIGHBOURS: tuple[Reason, ...] = (
+    *(kept.VocabularyChanged, NoVocabulary, kept.FingerprintMismatch, kept.BadBlock, kept.BadVocabulary),
+)
 DESCRIBING: tuple[Reason, ...] = (TooBusy, PoolStopped, ChildDied, ChildError)
 
 # Why a shape may be `failed`: what the worker finds, and what ends a job that finds nothing.

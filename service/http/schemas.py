@@ -9,6 +9,7 @@ from pydantic.config import JsonDict
 from index.methods import Method
 from index.shapes import Page, Shape, Status, StoredFile
 from service.http.reasons import FAILURES
+from service.http.relation_schemas import RelationModel
 from service.retrieval import Answer, Hit
 from worker.describe import MeshFacts
 
@@ -137,11 +138,21 @@ class ResultModel(BaseModel):
     rank: int
     distance: float
     shape: ShapeModel
+    relation: RelationModel | None = Field(
+        description="what the shape is to the query; null with other methods than the default and with own "
+        "weights, beyond the first results that the method compares a second time (`refined` of "
+        "`/v1/methods`), and where the shape's preview is gone"
+    )
 
     @classmethod
     def of(cls, hit: Hit) -> Self:
         """Return a hit as it leaves."""
-        return cls(rank=hit.rank, distance=hit.distance, shape=ShapeModel.of(hit.shape))
+        return cls(
+            rank=hit.rank,
+            distance=hit.distance,
+            shape=ShapeModel.of(hit.shape),
+            relation=RelationModel.of(hit.relation) if hit.relation else None,
+        )
 
 
 class QueryModel(BaseModel):

@@ -4,13 +4,14 @@ from anyio import to_thread
 from fastapi import APIRouter, Request
 
 from index.errors import FileMissing, NotReady
+from service.asking import Question
 from service.http.dependencies import QuestionPart, Services, ServicesPart
 from service.http.openapi import form_body, problems
 from service.http.reasons import DESCRIBING, ONE_SHAPE, QUESTION, READING, UPLOAD
 from service.http.schemas import AnswerModel
 from service.intake.submissions import Submission
 from service.intake.uploads import receiving
-from service.retrieval import Answer, Question, find_similar, search_upload
+from service.retrieval import Answer, find_similar, search_upload
 
 router = APIRouter(tags=["search"])
 

@@ -1,0 +1,157 @@
+"""Duplicates: the groups of a library, found a few shapes at a time, and never removed by themselves."""
+
+from base64 import urlsafe_b64decode, urlsafe_b64encode
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, field
+from typing import Literal
+
+from index.dismissals import Pair, pair_of
+from index.errors import BadCursor, NotReady, ShapeNotFound
+from index.shapes import Shape
+from service.asking import Question, near_without_refining
+from service.library import Library
+from service.relations.grouping import Group, groups_of
+from service.relations.relating import relate_stored
+from service.relations.relation import Related, Relation
+from service.vocabularies import known_vocabulary
+
+Kind = Literal[
+    Relation.SAME_FILE, Relation.SAME_SHAPE, Relation.RECOLOURED, Relation.RE_POSED
+]  # of duplicates
+USUAL: tuple[Kind, ...] = (Relation.SAME_FILE, Relation.SAME_SHAPE, Relation.RECOLOURED)
+NEAREST = 24  # shapes that each is compared with, by each way of asking
+WORK = 100  # shapes that a page looks at, about
+MOST = 100  # shapes of a group, about: more are found as several groups
+WAYS = (  # of asking: by everything, and by the surface alone, for copies in other colours
+    Question(limit=NEAREST),
+    Question(limit=NEAREST, weights={"colour-histogram": 0.0, "colour-curves": 0.0}),
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Duplicates:
+    """One group, with its shapes."""
+
+    group: Group
+    shapes: tuple[Shape, ...]  # in the order of the group's members
+
+
+@dataclass(frozen=True, kw_only=True)
+class DuplicatesPage:
+    """One page of groups."""
+
+    items: tuple[Duplicates, ...]  # by the least id of what is connected
+    next_cursor: str | None  # give it back for the next page; None at the end
+
+
+@dataclass(kw_only=True)
+class _Look:
+    """One look at the library: what was asked before is not asked again."""
+
+    library: Library
+    wanted: frozenset[Relation]
+    asked: dict[str, dict[str, Related]] = field(default_factory=dict)  # id → what is joined to it
+
+    def joined(self, shape_id: str) -> dict[str, Related]:
+        """Return the near shapes that have one of the wanted relations to a shape."""
+        if shape_id not in self.asked:
+            self.asked[shape_id] = _joined(self.library, shape_id, self.wanted)
+        return self.asked[shape_id]
+
+    def connected(self, shape_id: str) -> dict[Pair, Related]:
+        """Return the pairs by which a shape is connected to others, directly or by way of them."""
+        dismissed: set[Pair] = set()
+        pairs: dict[Pair, Related] = {}
+        reached, waiting = {shape_id}, [shape_id]
+        while waiting and len(reached) <= MOST:
+            one = waiting.pop()
+            near = self.joined(one)
+            dismissed |= self.library.catalogue.dismissed_among([one]) if near else set()
+            found = {
+                other: related for other, related in near.items() if pair_of(one, other) not in dismissed
+            }
+            pairs |= {pair_of(one, other): related for other, related in found.items()}
+            new = found.keys() - reached
+            reached |= new
+            waiting += new
+        return pairs
+
+
+def find_duplicates(
+    library: Library,
+    limit: int = 20,
+    cursor: str | None = None,
+    relations: Collection[Kind] = USUAL,
+    work: int = WORK,
+) -> DuplicatesPage:
+    """Return one page of groups of duplicates.
+
+    Shapes are looked at in the order of their ids, about ``work`` of them for a page: it may hold fewer
+    groups than asked for, even none, while there are more pages. Each is compared with its NEAREST alone.
+
+    Parameters
+    ----------
+    limit : int
+        Groups at most, at least 1; all that are made of the same connected shapes come together.
+    cursor : str, optional
+        What the page before gave.
+    relations : collection of Kind
+        By which shapes are joined.
+    work : int
+        Shapes that are asked for what is near them, about.
+
+    Raises
+    ------
+    BadCursor
+        The cursor is not one of ours.
+    NoVocabulary, VocabularyChanged, BadBlock, FingerprintMismatch
+    """
+    look = _Look(library=library, wanted=frozenset(relations))
+    items: list[Duplicates] = []
+    last = "" if cursor is None else _id_in(cursor)
+    for shape_id in library.catalogue.ready_after(last, work):
+        last = shape_id
+        items += _groups_at(look, shape_id)
+        if len(items) >= limit or len(look.asked) >= work:
+            break
+    more = bool(library.catalogue.ready_after(last, 1)) if last else False
+    return DuplicatesPage(items=tuple(items), next_cursor=_cursor_of(last) if more else None)
+
+
+def _groups_at(look: _Look, shape_id: str) -> Iterator[Duplicates]:
+    """Yield the groups of what is connected to a shape, unless a shape before it leads here as well.
+
+    Being near is not mutual: a shape with many copies may not have all of those near that have it near.
+    """
+    pairs = look.connected(shape_id)
+    members = {member for pair in pairs for member in pair}
+    if any(shape_id in pair for m in members if m < shape_id for pair in look.connected(m)):
+        return
+    for group in groups_of(pairs, look.library.catalogue.dismissed_among(members)):
+        shapes = look.library.catalogue.get_many(group.members)
+        if len(shapes) == len(group.members):  # otherwise one was removed in this moment
+            yield Duplicates(group=group, shapes=tuple(shapes[member] for member in group.members))
+
+
+def _joined(library: Library, shape_id: str, wanted: Collection[Relation]) -> dict[str, Related]:
+    try:
+        near = {found: None for way in WAYS for found in near_without_refining(library, shape_id, way)}
+        vocabulary_id = known_vocabulary(library.catalogue.state().vocabulary_id)
+        related = relate_stored(library, shape_id, list(near), vocabulary_id)
+    except (ShapeNotFound, NotReady):  # removed, or described anew, in this moment
+        return {}
+    return {other: found for other, found in related.items() if found.relation in wanted}
+
+
+def _cursor_of(shape_id: str) -> str:
+    return urlsafe_b64encode(f"from:{shape_id}".encode()).decode()
+
+
+def _id_in(cursor: str) -> str:
+    try:
+        word, _, shape_id = urlsafe_b64decode(cursor.encode("ascii")).decode().partition(":")
+    except ValueError:  # not ASCII, not base 64, not text
+        raise BadCursor("this cursor does not come from the duplicates") from None
+    if word != "from" or not shape_id:
+        raise BadCursor("this cursor does not come from the duplicates")
+    return shape_id

@@ -1,0 +1,1 @@
+"""A preview's points come back as they were written."""

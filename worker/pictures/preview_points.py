@@ -1,0 +1,58 @@
+"""A preview's points: the vertices and triangles of a GLB that `worker.pictures.preview` wrote."""
+
+import json
+import struct
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from worker.arrays import FloatArray, IntArray
+
+_HEADER = struct.Struct("<4sII")  # magic, version, length of the file
+_CHUNK = struct.Struct("<I4s")  # length, kind
+_TYPES = {5126: "<f4", 5125: "<u4", 5123: "<u2"}  # component types, glTF 2.0, section 3.6.2.2
+
+
+class NoPreview(Exception):
+    """The bytes are no GLB with one mesh of triangles."""
+
+
+def read_points(glb: bytes) -> tuple[FloatArray, IntArray]:
+    """Return vertices (n, 3) and faces (m, 3) of a preview, in units of the canonical surface.
+
+    Raises
+    ------
+    NoPreview
+    """
+    try:
+        document, numbers = _chunks(glb)
+        primitive = document["meshes"][0]["primitives"][0]
+        vertices = _accessed(document, numbers, primitive["attributes"]["POSITION"]).reshape(-1, 3)
+        faces = _accessed(document, numbers, primitive["indices"]).reshape(-1, 3)
+    except (KeyError, IndexError, TypeError, ValueError, struct.error) as error:
+        raise NoPreview(f"a preview could not be read: {error!r}") from error
+    if faces.size == 0 or faces.max() >= len(vertices) or not np.isfinite(vertices).all():
+        raise NoPreview(f"the preview's {len(faces)} triangles and {len(vertices)} vertices do not fit")
+    return vertices.astype(np.float64), faces.astype(np.int64)
+
+
+def _chunks(glb: bytes) -> tuple[dict[str, Any], memoryview]:
+    """Return the document of a GLB and its numbers."""
+    magic, version, _ = _HEADER.unpack_from(glb)
+    if magic != b"glTF" or version != 2:
+        raise ValueError(f"it begins with {magic!r}, version {version}")
+    length, _ = _CHUNK.unpack_from(glb, _HEADER.size)
+    start = _HEADER.size + _CHUNK.size
+    document: dict[str, Any] = json.loads(glb[start : start + length])
+    return document, memoryview(glb)[start + length + _CHUNK.size :]
+
+
+def _accessed(
+    document: dict[str, Any], numbers: memoryview, place: int
+) -> npt.NDArray[np.float32] | npt.NDArray[np.uint32]:
+    accessor = document["accessors"][place]
+    view = document["bufferViews"][accessor["bufferView"]]
+    kind = np.dtype(_TYPES[accessor["componentType"]])
+    start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+    return np.frombuffer(numbers, kind, view["byteLength"] // kind.itemsize, start)
