@@ -55,15 +55,16 @@ def test_migrating_again_changes_nothing(tmp_path: Path) -> None:
     assert migrate_in(tmp_path) == migrate_in(tmp_path)
 
 
-def test_a_library_of_the_first_version_gets_its_keys_and_keeps_what_it_holds(tmp_path: Path) -> None:
+def test_a_library_of_the_first_version_gets_its_tables_and_keeps_what_it_holds(tmp_path: Path) -> None:
     library = migrate_in(tmp_path)
     with sqlite3.connect(tmp_path / "catalogue.db") as earlier:
         earlier.execute("DROP TABLE api_keys")
+        earlier.execute("DROP TABLE dismissals")
         earlier.execute("UPDATE alembic_version SET version_num = '0001'")
     earlier.close()
     assert migrate_in(tmp_path) == library
     engine = make_engine(url_in(tmp_path))
-    assert inspect(engine).has_table("api_keys")
+    assert {"api_keys", "dismissals"} <= set(inspect(engine).get_table_names())
     engine.dispose()
 
 

@@ -39,9 +39,9 @@ def read_points(glb: bytes) -> tuple[FloatArray, IntArray]:
 
 def _chunks(glb: bytes) -> tuple[dict[str, Any], memoryview]:
     """Return the document of a GLB and its numbers."""
-    magic, version, _ = _HEADER.unpack_from(glb)
-    if magic != b"glTF" or version != 2:
-        raise ValueError(f"it begins with {magic!r}, version {version}")
+    magic, version, size = _HEADER.unpack_from(glb)
+    if magic != b"glTF" or version != 2 or size != len(glb):
+        raise ValueError(f"it begins with {magic!r}, version {version}, {size} bytes; it has {len(glb)}")
     length, _ = _CHUNK.unpack_from(glb, _HEADER.size)
     start = _HEADER.size + _CHUNK.size
     document: dict[str, Any] = json.loads(glb[start : start + length])

@@ -16,7 +16,7 @@ def upgrade() -> None:
         sa.Column("one", sa.String(), nullable=False),
         sa.Column("other", sa.String(), nullable=False),
         sa.Column("created_at", sa.DateTime(), nullable=False),
-        sa.CheckConstraint("one < other", name="ck_dismissals_ordered"),
+        sa.CheckConstraint("one < other", name=op.f("ck_dismissals_ordered")),
         sa.ForeignKeyConstraint(["one"], ["shapes.id"], name="fk_dismissals_one", ondelete="CASCADE"),
         sa.ForeignKeyConstraint(["other"], ["shapes.id"], name="fk_dismissals_other", ondelete="CASCADE"),
         sa.PrimaryKeyConstraint("one", "other", name="pk_dismissals"),
