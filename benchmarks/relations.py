@@ -1,4 +1,4 @@
-"""Fill the tables of docs/relations.md: how often what is told of two shapes is true. By `make relations`.
+"""Fill the tables of docs/relations.md: `python -m benchmarks.relations FOLDER`.
 
 What is described is kept, so that a stopped run goes on from there.
 """

@@ -46,4 +46,6 @@ def test_another_animal_does_not() -> None:
 def test_a_part_may_come_from_anywhere() -> None:
     part, share = cut(np.array(DIRECTIONS[1]), 0.8)
     shifted = Placed(part.vertices + [500.0, -200.0, 70.0], part.faces)
-    assert gap(shifted, Placed(*WHOLE), share**0.5) == pytest.approx(gap(part, Placed(*WHOLE), share**0.5), abs=0.05)
+    assert gap(shifted, Placed(*WHOLE), share**0.5) == pytest.approx(
+        gap(part, Placed(*WHOLE), share**0.5), abs=0.05
+    )

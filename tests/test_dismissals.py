@@ -86,7 +86,9 @@ def test_pages_follow_each_other_in_the_order_of_ids(opened: Opened) -> None:
     assert seen == wanted
 
 
-@pytest.mark.parametrize("cursor", ["", "é", "YWJj", "YmVmb3JlOjE6Mg=="])  # nothing, signs, "abc", "before:1:2"
+@pytest.mark.parametrize(
+    "cursor", ["", "é", "YWJj", "YmVmb3JlOjE6Mg=="]
+)  # nothing, signs, "abc", "before:1:2"
 def test_a_cursor_from_elsewhere_is_refused(opened: Opened, cursor: str) -> None:
     with pytest.raises(BadCursor):
         opened.catalogue.dismissals(cursor=cursor)

@@ -45,8 +45,11 @@ def library(tmp_path: Path) -> Iterator[Library]:
         yield library
 
 
-def every(library: Library, limit: int = 20, work: int = 100, **changes: tuple[Kind, ...]) -> list[Duplicates]:
-    found, cursor = [], None
+def every(
+    library: Library, limit: int = 20, work: int = 100, **changes: tuple[Kind, ...]
+) -> list[Duplicates]:
+    found: list[Duplicates] = []
+    cursor: str | None = None
     while True:
         page = find_duplicates(library, limit=limit, cursor=cursor, work=work, **changes)
         found += page.items
@@ -141,7 +144,9 @@ def test_pairs_tell_what_joins_the_shapes_of_a_group(library: Library) -> None:
     assert set(found.group.pairs) == set(combinations(ids, 2))
 
 
-@pytest.mark.parametrize("cursor", ["", "é", "YWJj", "YWZ0ZXI6eA==", "ZnJvbTo="])  # … "abc", "after:x", "from:"
+@pytest.mark.parametrize(
+    "cursor", ["", "é", "YWJj", "YWZ0ZXI6eA==", "ZnJvbTo="]
+)  # … "abc", "after:x", "from:"
 def test_a_cursor_from_elsewhere_is_refused(library: Library, cursor: str) -> None:
     with pytest.raises(BadCursor):
         find_duplicates(library, cursor=cursor)

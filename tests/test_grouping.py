@@ -48,7 +48,9 @@ def test_a_chain_is_one_group() -> None:
 
 
 def test_a_group_is_called_by_its_loosest_relation() -> None:
-    pairs = joined("ab") | joined("bc", relation=Relation.RECOLOURED) | joined("cd", relation=Relation.SAME_FILE)
+    pairs = (
+        joined("ab") | joined("bc", relation=Relation.RECOLOURED) | joined("cd", relation=Relation.SAME_FILE)
+    )
     (group,) = groups_of(pairs, ())
     assert group.relation is Relation.RECOLOURED
 

@@ -37,6 +37,10 @@ CALLS = [
     ("GET", "/v1/shapes/x/similar"),
     ("POST", "/v1/search"),
     ("GET", "/v1/methods"),
+    ("GET", "/v1/duplicates"),
+    ("GET", "/v1/duplicates/dismissals"),
+    ("PUT", "/v1/duplicates/dismissals/x/y"),
+    ("DELETE", "/v1/duplicates/dismissals/x/y"),
     ("GET", "/v1/events"),
     ("GET", "/metrics"),
 ]
@@ -71,10 +75,17 @@ def test_nothing_of_the_library_is_told_without_a_key(service: Serving, method: 
         assert answer.headers["www-authenticate"] == "Bearer"
 
 
+def _example_of(path: str) -> str:
+    examples = {"{shape_id}": "x", "{name}": "a", "{one}": "x", "{other}": "y"}
+    for part, example in examples.items():
+        path = path.replace(part, example)
+    return path
+
+
 def test_every_call_of_the_interface_is_in_the_list_above_or_open(service: Serving) -> None:
     interface = service.client.get("/openapi.json").json()
     described = {
-        (method.upper(), path.replace("{shape_id}", "x").replace("{name}", "a")): call
+        (method.upper(), _example_of(path)): call
         for path, methods in interface["paths"].items()
         for method, call in methods.items()
     }

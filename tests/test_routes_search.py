@@ -48,6 +48,30 @@ def test_method_and_limit_are_obeyed(service: Serving) -> None:
         assert len(answer["results"]) == 2
 
 
+def test_results_of_the_refined_method_tell_their_relation(service: Serving) -> None:
+    path = f"/v1/shapes/{shape_id(service, 60)}/similar"
+    told = [hit["relation"] for hit in service.client.get(path).json()["results"]]
+    assert [relation["name"] for relation in told] == ["similar"] * 3
+    for relation in told:
+        assert relation["shape_distance"] > 0
+        assert relation["colour_distance"] > 0
+    for params in ({"method": "hks"}, {"weights": "log-hks:1"}):
+        assert [hit["relation"] for hit in service.client.get(path, params=params).json()["results"]] == [
+            None
+        ] * 3
+
+
+def test_a_mesh_that_is_kept_already_is_found_as_the_same_file(service: Serving) -> None:
+    for files, name in (
+        ({"other name.ply": coloured_triangle(130)}, "same_file"),
+        ({"a.ply": coloured_triangle(130).replace(b"ply\n", b"ply\ncomment again\n", 1)}, "same_shape"),
+    ):
+        parts = [("files", each) for each in files.items()]
+        first = service.client.post("/v1/search", files=parts).json()["results"][0]
+        assert (first["shape"]["name"], first["relation"]["name"]) == ("red130", name)
+        assert first["relation"]["misfit"] == pytest.approx(0.0, abs=1e-6)
+
+
 def test_own_weights_are_taken_in_both_forms_and_scale_the_distance(service: Serving) -> None:
     path = f"/v1/shapes/{shape_id(service, 10)}/similar"
     plain = {"log-hks": 0.0, "colour-histogram": 2.0, "colour-curves": 0.0}
