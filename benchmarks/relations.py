@@ -6,9 +6,8 @@ What is described is kept, so that a stopped run goes on from there.
 import argparse
 import time
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
 from itertools import combinations_with_replacement
 from pathlib import Path
 
@@ -18,29 +17,16 @@ from threadpoolctl import threadpool_limits
 from benchmarks.pages import fill_page, table_of
 from benchmarks.relation_meshes import Read, Variant, surfaces
 from benchmarks.relation_numbers import Kept, describe_all
+from benchmarks.relation_telling import Pair, Told, told_of
 from benchmarks.relation_truth import ALIASES, Moves, moves_of, truth
 from service.commands.opening import pool_for
-from service.relations.evidence import relate_sides
 from service.relations.relation import Relation
 from service.settings import Settings
 
 PAGE = Path(__file__).parents[1] / "docs" / "relations.md"
-PRELOAD = ("benchmarks.relation_numbers", "benchmarks.relation_truth")
+PRELOAD = ("benchmarks.relation_numbers", "benchmarks.relation_telling", "benchmarks.relation_truth")
 HOUR = 3_600  # seconds that one process may take: the machine may be busy
-GROUPS = 16  # of pairs, for one process after another
-NONE = "none"  # told where a preview cannot be read
-
-Pair = tuple[Variant, Variant, Relation]  # and the true relation
-
-
-@dataclass(frozen=True, kw_only=True)
-class Told:
-    """What was told of one pair."""
-
-    part: str  # of the measurement
-    true: Relation
-    told: str
-    milliseconds: float
+GROUPS = 4  # of pairs, for one process after another
 
 
 def main() -> None:
@@ -67,7 +53,7 @@ def measure(
         variants = [each for _, sharing in found.values() for each in sharing if each.part == part]
         pairs = list(pairs_of(variants, {each: kept.change(each) for each in variants}, moves))
         groups = [pairs[start::GROUPS] for start in range(GROUPS)]
-        for group in pool.map(_told_of, [kept] * GROUPS, groups):
+        for group in pool.map(told_of, [kept] * GROUPS, groups):
             yield from group
 
 
@@ -91,21 +77,6 @@ def _moves(pool: Executor, found: Mapping[Variant, tuple[Read, Sequence[Variant]
             models.setdefault(alias, {})[variant.model, variant.pose] = read
     measured = pool.map(moves_of, models.values())
     return {pair: moved for moves in measured for pair, moved in moves.items()}
-
-
-def _told_of(kept: Kept, pairs: Iterable[Pair]) -> list[Told]:
-    sides = {}
-    found = []
-    for one, other, true in pairs:
-        for variant in (one, other):
-            if variant not in sides:
-                sides[variant] = kept.side(variant)
-        start = time.perf_counter()
-        related = relate_sides(sides[one], sides[other])
-        milliseconds = 1000.0 * (time.perf_counter() - start)
-        told = NONE if related is None else str(related.relation)
-        found.append(Told(part=one.part, true=true, told=told, milliseconds=milliseconds))
-    return found
 
 
 def tables_of(told: Sequence[Told]) -> dict[str, str]:

@@ -9,8 +9,9 @@ import pytest
 
 from benchmarks.pages import places_of
 from benchmarks.relation_meshes import Variant, coarser, exported, subdivided
+from benchmarks.relation_telling import Told
 from benchmarks.relation_truth import moves_of, truth
-from benchmarks.relations import PAGE, Told, pairs_of, scores, tables_of
+from benchmarks.relations import PAGE, pairs_of, scores, tables_of
 from service.relations.relation import Relation
 from tests.shapes import box, coloured, sphere
 from worker.geometry.resampling import face_areas

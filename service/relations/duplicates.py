@@ -1,12 +1,13 @@
 """Duplicates: the groups of a library, found a few shapes at a time, and never removed by themselves."""
 
 from base64 import urlsafe_b64decode, urlsafe_b64encode
+from collections import deque
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 from typing import Literal
 
 from index.dismissals import Pair, pair_of
-from index.errors import BadCursor, NotReady, ShapeNotFound
+from index.errors import BadBlock, BadCursor, NotReady, ShapeNotFound
 from index.shapes import Shape
 from service.asking import Question, near_without_refining
 from service.library import Library
@@ -21,7 +22,7 @@ Kind = Literal[
 USUAL: tuple[Kind, ...] = (Relation.SAME_FILE, Relation.SAME_SHAPE, Relation.RECOLOURED)
 NEAREST = 24  # shapes that each is compared with, by each way of asking
 WORK = 100  # shapes that a page looks at, about
-MOST = 100  # shapes of a group, about: more are found as several groups
+MOST = 60  # shapes of a group, about: of more, those that are nearest to the first are told
 WAYS = (  # of asking: by everything, and by the surface alone, for copies in other colours
     Question(limit=NEAREST),
     Question(limit=NEAREST, weights={"colour-histogram": 0.0, "colour-curves": 0.0}),
@@ -50,30 +51,30 @@ class _Look:
 
     library: Library
     wanted: frozenset[Relation]
-    asked: dict[str, dict[str, Related]] = field(default_factory=dict)  # id → what is joined to it
+    asked: dict[str, dict[Pair, Related]] = field(default_factory=dict)  # id → what is joined to it
+    known: dict[str, dict[Pair, Related]] = field(default_factory=dict)  # id → what is connected to it
 
-    def joined(self, shape_id: str) -> dict[str, Related]:
-        """Return the near shapes that have one of the wanted relations to a shape."""
+    def joined(self, shape_id: str) -> dict[Pair, Related]:
+        """Return a shape's pairs with those near it: of a wanted relation, and not dismissed."""
         if shape_id not in self.asked:
-            self.asked[shape_id] = _joined(self.library, shape_id, self.wanted)
+            near = _joined(self.library, shape_id, self.wanted)
+            dismissed = self.library.catalogue.dismissed_among([shape_id]) if near else set()
+            self.asked[shape_id] = {pair: related for pair, related in near.items() if pair not in dismissed}
         return self.asked[shape_id]
 
     def connected(self, shape_id: str) -> dict[Pair, Related]:
         """Return the pairs by which a shape is connected to others, directly or by way of them."""
-        dismissed: set[Pair] = set()
+        if shape_id in self.known:
+            return self.known[shape_id]
         pairs: dict[Pair, Related] = {}
-        reached, waiting = {shape_id}, [shape_id]
+        reached, waiting = {shape_id}, deque([shape_id])
         while waiting and len(reached) <= MOST:
-            one = waiting.pop()
-            near = self.joined(one)
-            dismissed |= self.library.catalogue.dismissed_among([one]) if near else set()
-            found = {
-                other: related for other, related in near.items() if pair_of(one, other) not in dismissed
-            }
-            pairs |= {pair_of(one, other): related for other, related in found.items()}
-            new = found.keys() - reached
+            found = self.joined(waiting.popleft())
+            pairs |= found
+            new = {member for pair in found for member in pair} - reached
             reached |= new
-            waiting += new
+            waiting += sorted(new)
+        self.known[shape_id] = pairs
         return pairs
 
 
@@ -104,7 +105,7 @@ def find_duplicates(
     ------
     BadCursor
         The cursor is not one of ours.
-    NoVocabulary, VocabularyChanged, BadBlock, FingerprintMismatch
+    NoVocabulary, VocabularyChanged
     """
     look = _Look(library=library, wanted=frozenset(relations))
     items: list[Duplicates] = []
@@ -125,7 +126,7 @@ def _groups_at(look: _Look, shape_id: str) -> Iterator[Duplicates]:
     """
     pairs = look.connected(shape_id)
     members = {member for pair in pairs for member in pair}
-    if any(shape_id in pair for m in members if m < shape_id for pair in look.connected(m)):
+    if any(shape_id in pair for m in sorted(members) if m < shape_id for pair in look.connected(m)):
         return
     for group in groups_of(pairs, look.library.catalogue.dismissed_among(members)):
         shapes = look.library.catalogue.get_many(group.members)
@@ -133,14 +134,15 @@ def _groups_at(look: _Look, shape_id: str) -> Iterator[Duplicates]:
             yield Duplicates(group=group, shapes=tuple(shapes[member] for member in group.members))
 
 
-def _joined(library: Library, shape_id: str, wanted: Collection[Relation]) -> dict[str, Related]:
+def _joined(library: Library, shape_id: str, wanted: Collection[Relation]) -> dict[Pair, Related]:
+    """Compare a shape with those near it; one that was removed meanwhile, or lacks a block, has none."""
     try:
         near = {found: None for way in WAYS for found in near_without_refining(library, shape_id, way)}
-        vocabulary_id = known_vocabulary(library.catalogue.state().vocabulary_id)
-        related = relate_stored(library, shape_id, list(near), vocabulary_id)
-    except (ShapeNotFound, NotReady):  # removed, or described anew, in this moment
+    except (ShapeNotFound, NotReady, BadBlock):
         return {}
-    return {other: found for other, found in related.items() if found.relation in wanted}
+    vocabulary_id = known_vocabulary(library.catalogue.state().vocabulary_id)
+    related = relate_stored(library, shape_id, list(near), vocabulary_id)
+    return {pair_of(shape_id, other): told for other, told in related.items() if told.relation in wanted}
 
 
 def _cursor_of(shape_id: str) -> str:
