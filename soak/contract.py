@@ -18,6 +18,7 @@ ENDLESS = "watchShapes"  # a stream of events ends when its listener goes; tests
 ANY_BUT_DEFECTS = ["2xx", "3xx", "4xx", "503", "507"]  # busy, and full: both are described, with what to do
 # What a schema says of these is that they are text or bytes; what is in them decides.
 OPAQUE = ["addShape", "searchByMesh", "listShapes", "findSimilar", "changeShape"]
+OPAQUE += ["listDuplicates", "listDismissals", "dismissPair"]  # cursors of their own; two ids that differ
 # In a form everything is text: `true` in place of a name arrives as one, an empty list as nothing at all.
 FORMS = ["addShape", "searchByMesh"]
 LATER = ["getThumbnail", "getPreview"]  # are there when a new shape is ready
@@ -109,6 +110,8 @@ def _settings(url: str, headers: Mapping[str, str], known: Known, examples: int,
         },
         "parameters": {
             "path.shape_id": {"dictionary": "ids", "probability": 0.8},
+            "path.one": {"dictionary": "ids", "probability": 0.8},
+            "path.other": {"dictionary": "ids", "probability": 0.8},
             "path.name": {"dictionary": "names", "probability": 0.7},
             "query.cursor": {"dictionary": "cursors", "probability": 0.5},
             "query.weights": {"dictionary": "weights", "probability": 0.5},
