@@ -21,7 +21,7 @@ Kind = Literal[
 ]  # of duplicates
 USUAL: tuple[Kind, ...] = (Relation.SAME_FILE, Relation.SAME_SHAPE, Relation.RECOLOURED)
 NEAREST = 24  # shapes that each is compared with, by each way of asking
-WORK = 100  # shapes that a page looks at, about
+WORK = 50  # shapes that a page looks at, about
 MOST = 60  # shapes of a group, about: of more, those that are nearest to the first are told
 WAYS = (  # of asking: by everything, and by the surface alone, for copies in other colours
     Question(limit=NEAREST),
@@ -51,16 +51,29 @@ class _Look:
 
     library: Library
     wanted: frozenset[Relation]
+    told: dict[Pair, Related | None] = field(default_factory=dict)
     asked: dict[str, dict[Pair, Related]] = field(default_factory=dict)  # id → what is joined to it
     known: dict[str, dict[Pair, Related]] = field(default_factory=dict)  # id → what is connected to it
 
     def joined(self, shape_id: str) -> dict[Pair, Related]:
         """Return a shape's pairs with those near it: of a wanted relation, and not dismissed."""
         if shape_id not in self.asked:
-            near = _joined(self.library, shape_id, self.wanted)
+            near = {pair_of(shape_id, other): other for other in _near(self.library, shape_id)}
             dismissed = self.library.catalogue.dismissed_among([shape_id]) if near else set()
-            self.asked[shape_id] = {pair: related for pair, related in near.items() if pair not in dismissed}
+            self._tell(shape_id, [other for pair, other in near.items() if pair not in self.told])
+            found = {pair: self.told.get(pair) for pair in near if pair not in dismissed}
+            self.asked[shape_id] = {
+                pair: related
+                for pair, related in found.items()
+                if related is not None and related.relation in self.wanted
+            }
         return self.asked[shape_id]
+
+    def _tell(self, shape_id: str, others: list[str]) -> None:
+        """Compare a shape with others, each pair once."""
+        vocabulary_id = known_vocabulary(self.library.catalogue.state().vocabulary_id)
+        related = relate_stored(self.library, shape_id, others, vocabulary_id, parts=False)
+        self.told |= {pair_of(shape_id, other): related.get(other) for other in others}
 
     def connected(self, shape_id: str) -> dict[Pair, Related]:
         """Return the pairs by which a shape is connected to others, directly or by way of them."""
@@ -134,15 +147,12 @@ def _groups_at(look: _Look, shape_id: str) -> Iterator[Duplicates]:
             yield Duplicates(group=group, shapes=tuple(shapes[member] for member in group.members))
 
 
-def _joined(library: Library, shape_id: str, wanted: Collection[Relation]) -> dict[Pair, Related]:
-    """Compare a shape with those near it; one that was removed meanwhile, or lacks a block, has none."""
+def _near(library: Library, shape_id: str) -> list[str]:
+    """Return what lies near a shape; nothing where it was removed meanwhile, or lacks a block."""
     try:
-        near = {found: None for way in WAYS for found in near_without_refining(library, shape_id, way)}
+        return list({found: None for way in WAYS for found in near_without_refining(library, shape_id, way)})
     except (ShapeNotFound, NotReady, BadBlock):
-        return {}
-    vocabulary_id = known_vocabulary(library.catalogue.state().vocabulary_id)
-    related = relate_stored(library, shape_id, list(near), vocabulary_id)
-    return {pair_of(shape_id, other): told for other, told in related.items() if told.relation in wanted}
+        return []
 
 
 def _cursor_of(shape_id: str) -> str:

@@ -17,8 +17,14 @@ LEAST, MOST = 0.2, 0.97  # area of a part, as a share of the whole's
 HELD = 0.95  # of a part's colours that the whole must have, as much of each
 
 
-def relate_sides(query: Side, result: Side) -> Related | None:
-    """Return how two shapes are related; None where a preview that is needed is gone, or cannot be read."""
+def relate_sides(query: Side, result: Side, *, parts: bool = True) -> Related | None:
+    """Return how two shapes are related; None where a preview that is needed is gone, or cannot be read.
+
+    Parameters
+    ----------
+    parts : bool
+        Whether to look for parts; without, they are only similar.
+    """
     evidence = Evidence(
         shape_distance=apart(query, result, WORDS) / 2.0,
         colour_distance=apart(query, result, HISTOGRAM) / 2.0,
@@ -28,8 +34,11 @@ def relate_sides(query: Side, result: Side) -> Related | None:
         part=None,
         same_file=bool(query.mesh_files & result.mesh_files),
     )
-    compared = _posed if evidence.shape_distance <= SHAPE else _parted
-    found = compared(query, result, evidence)
+    found: Evidence | None = evidence
+    if evidence.shape_distance <= SHAPE:
+        found = _posed(query, result, evidence)
+    elif parts:
+        found = _parted(query, result, evidence)
     return None if found is None else Related(relation=relation_of(found), evidence=found)
 
 

@@ -35,7 +35,7 @@ Kinds = Annotated[
 async def list_duplicates(
     services: ServicesPart, limit: Groups = 20, cursor: Cursor = None, relation: Kinds = None
 ) -> DuplicatesModel:
-    """Look through the library, some hundred shapes for a page, for shapes that are the same.
+    """Look through the library, some fifty shapes for a page, for shapes that are the same.
 
     Nothing is removed. A page may hold fewer groups than asked for, or none, while there are more pages:
     go on until `next_cursor` is null. Each shape is compared with the 48 nearest at most.
