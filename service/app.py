@@ -30,6 +30,7 @@ from service.jobs.workers import Worker, process_name
 from service.key_ring import KeyRing
 from service.library import Library
 from service.refining import rehearse as rehearse_registration
+from service.relations.postures import rehearse as rehearse_postures
 from service.settings import Settings
 
 OpenLibrary = Callable[[Settings], Library]
@@ -145,6 +146,7 @@ def _rehearsal() -> Iterator[None]:
 def _rehearse() -> None:
     rehearse_registration()
     rehearse_search()
+    rehearse_postures()
 
 
 @contextlib.contextmanager

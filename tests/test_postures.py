@@ -7,9 +7,10 @@ import pytest
 
 from index.files import FileStore
 from service.relations import postures
-from service.relations.postures import Postures, posture_of
+from service.relations.postures import Postures, posture_of, rehearse
 from service.storage import PREVIEW, derived_key
 from tests.shapes import sphere
+from worker.descriptors.posture import _cumulated
 from worker.pictures.preview import preview
 
 
@@ -56,3 +57,8 @@ def test_the_longest_unused_is_forgotten(files: FileStore, monkeypatch: pytest.M
     files.delete(derived_key("a", PREVIEW))
     assert known.of(files, "a", 1) is first
     assert known.of(files, "a", 2) is None  # forgotten, and gone
+
+
+def test_what_is_rehearsed_is_compiled() -> None:
+    rehearse()
+    assert _cumulated.signatures  # type: ignore[attr-defined]  # numba's
