@@ -1,7 +1,6 @@
 """Deciding: which relation two shapes have, by the numbers between them.
 
-The limits were chosen on people, and hold for animals and made creatures: docs/relations.md has what was
-measured.
+docs/relations.md tells what the limits were chosen on, and how well they hold on other shapes.
 """
 
 from service.relations.relation import Evidence, Relation
