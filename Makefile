@@ -1,5 +1,5 @@
 # Every command sets up what it needs; `make setup` alone prepares .venv.
-.PHONY: setup run test check soak lock vocabulary picture evaluation choices bench
+.PHONY: setup run test check soak lock vocabulary picture evaluation choices relations bench
 VENV := .venv
 PYTHON := $(VENV)/bin/python
 STAMP := $(VENV)/.complete
@@ -49,6 +49,10 @@ evaluation: setup
 # Measures what the choices cost that the paper leaves open, and fills the tables of docs/choices.md: make choices DATA=folder
 choices: setup
 	$(PYTHON) -m benchmarks.choices $(DATA)
+
+# Measures how well relations are told, and fills the tables of docs/relations.md: make relations DATA=folder
+relations: setup
+	$(PYTHON) -m benchmarks.relations $(DATA)
 
 # Measures what describing and searching cost, and fills the tables of docs/speed.md (half an hour): make bench DATA=folder
 bench: setup

@@ -26,6 +26,7 @@ class Question:
     method: str = DEFAULT_METHOD  # a row of the table of methods
     limit: int = 10  # results at most
     weights: Mapping[str, float] | None = None  # block → weight in place of the method's own
+    relations: bool = False  # whether to tell what each result is to the query, which takes longer
 
     @property
     def refined(self) -> int:

@@ -92,7 +92,8 @@ def find_similar(library: Library, shape_id: str, question: Question) -> Answer:
     """
     start = time.perf_counter()
     found = rank_near(library, shape_id, question)
-    related = relate_stored(library, shape_id, found.registered, found.vocabulary_id)
+    asked = found.registered if question.relations else ()
+    related = relate_stored(library, shape_id, asked, found.vocabulary_id)
     return _answer(library, question, found.ranked, related, start)
 
 
@@ -122,7 +123,8 @@ def search_upload(
     ).result()
     found = rank_description(library, described, question)
     query = described_side(described, found.blocks, ((file.name, file.sha256) for file in submission.files))
-    related = relate(library, query, found.registered, found.vocabulary_id)
+    asked = found.registered if question.relations else ()
+    related = relate(library, query, asked, found.vocabulary_id)
     return _answer(library, question, found.ranked, related, start, described.facts)
 
 

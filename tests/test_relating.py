@@ -144,8 +144,12 @@ def test_a_mesh_that_is_not_kept_has_the_relations_of_one_that_is(library: Libra
 
 def test_only_results_that_were_compared_twice_have_a_relation(library: Library) -> None:
     one = ids(library)["first"]
-    assert all(hit.relation for hit in find_similar(library, one, Question()).hits)
-    for question in (Question(method="chks"), Question(weights={"log-hks": 1.0})):
+    assert all(hit.relation for hit in find_similar(library, one, Question(relations=True)).hits)
+    for question in (
+        Question(method="chks", relations=True),
+        Question(weights={"log-hks": 1.0}, relations=True),
+        Question(),
+    ):
         assert not any(hit.relation for hit in find_similar(library, one, question).hits)
 
 
@@ -157,7 +161,8 @@ def test_without_a_preview_nothing_is_told_of_what_needs_it(library: Library) ->
     forgetful = replace(library, postures=Postures())
     try:
         hits = {
-            hit.shape.name: hit.relation for hit in find_similar(forgetful, known["first"], Question()).hits
+            hit.shape.name: hit.relation
+            for hit in find_similar(forgetful, known["first"], Question(relations=True)).hits
         }
     finally:
         library.files.put(key, kept)

@@ -48,17 +48,20 @@ def test_method_and_limit_are_obeyed(service: Serving) -> None:
         assert len(answer["results"]) == 2
 
 
-def test_results_of_the_refined_method_tell_their_relation(service: Serving) -> None:
-    path = f"/v1/shapes/{shape_id(service, 60)}/similar"
+def test_results_of_the_refined_method_tell_their_relation_where_that_is_asked_for(
+    service: Serving,
+) -> None:
+    plain = f"/v1/shapes/{shape_id(service, 60)}/similar"
+    path = f"{plain}?relations=true"
+    assert [hit["relation"] for hit in service.client.get(plain).json()["results"]] == [None] * 3
     told = [hit["relation"] for hit in service.client.get(path).json()["results"]]
     assert [relation["name"] for relation in told] == ["similar"] * 3
     for relation in told:
         assert relation["shape_distance"] > 0
         assert relation["colour_distance"] > 0
-    for params in ({"method": "hks"}, {"weights": "log-hks:1"}):
-        assert [hit["relation"] for hit in service.client.get(path, params=params).json()["results"]] == [
-            None
-        ] * 3
+    for other in ("method=hks", "weights=log-hks:1"):
+        results = service.client.get(f"{path}&{other}").json()["results"]
+        assert [hit["relation"] for hit in results] == [None] * 3
 
 
 def test_a_mesh_that_is_kept_already_is_found_as_the_same_file(service: Serving) -> None:
@@ -67,7 +70,7 @@ def test_a_mesh_that_is_kept_already_is_found_as_the_same_file(service: Serving)
         ({"a.ply": coloured_triangle(130).replace(b"ply\n", b"ply\ncomment again\n", 1)}, "same_shape"),
     ):
         parts = [("files", each) for each in files.items()]
-        first = service.client.post("/v1/search", files=parts).json()["results"][0]
+        first = service.client.post("/v1/search?relations=true", files=parts).json()["results"][0]
         assert (first["shape"]["name"], first["relation"]["name"]) == ("red130", name)
         assert first["relation"]["misfit"] == pytest.approx(0.0, abs=1e-6)
 

@@ -75,9 +75,13 @@ async def question(
             examples=["log-hks:1,colour-histogram:0.5"],
         ),
     ] = None,
+    relations: Annotated[
+        bool,
+        Query(description="whether to tell what each result is to the query; milliseconds more for each"),
+    ] = False,
 ) -> Question:
     """Return how to search, from the query string."""
-    return Question(method=method, limit=limit, weights=read_weights(weights))
+    return Question(method=method, limit=limit, weights=read_weights(weights), relations=relations)
 
 
 ServicesPart = Annotated[Services, Depends(services)]

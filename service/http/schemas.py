@@ -139,9 +139,9 @@ class ResultModel(BaseModel):
     distance: float
     shape: ShapeModel
     relation: RelationModel | None = Field(
-        description="what the shape is to the query; null with other methods than the default and with own "
-        "weights, beyond the first results that the method compares a second time (`refined` of "
-        "`/v1/methods`), and where the shape's preview is gone"
+        description="what the shape is to the query; null unless `relations=true` asks for it, with other "
+        "methods than the default and with own weights, beyond the first results that the method compares a "
+        "second time (`refined` of `/v1/methods`), and where the shape's preview is gone"
     )
 
     @classmethod
