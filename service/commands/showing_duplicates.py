@@ -1,7 +1,7 @@
 """What `faience duplicates` does: look through the library page by page, and print each group at once."""
 
 import json
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -10,7 +10,9 @@ import typer
 from rich.console import Console
 from rich.table import Column, Table
 
+from index.shapes import Status
 from service.commands.opening import opened, settings_for
+from service.commands.progress import progress_bar
 from service.library import Library
 from service.relations.duplicates import USUAL, Duplicates, Kind, find_duplicates
 from service.relations.relation import Related, Relation
@@ -25,9 +27,9 @@ def show_duplicates(data_dir: Path, limit: int | None, re_posed: bool, as_json: 
         There is no library.
     """
     relations = (*USUAL, Relation.RE_POSED) if re_posed else USUAL
-    with opened(settings_for(data_dir)) as library:
+    with opened(settings_for(data_dir)) as library, progress_bar("Comparing", None) as advance:
         shown = 0
-        for found in islice(_groups(library, relations), limit):
+        for found in islice(_groups(library, relations, advance), limit):
             shown += 1
             if as_json:
                 typer.echo(json.dumps(_fields(found)))
@@ -37,10 +39,16 @@ def show_duplicates(data_dir: Path, limit: int | None, re_posed: bool, as_json: 
         typer.echo("There are no duplicates.")
 
 
-def _groups(library: Library, relations: tuple[Kind, ...]) -> Iterator[Duplicates]:
+def _groups(
+    library: Library, relations: tuple[Kind, ...], advance: Callable[..., None]
+) -> Iterator[Duplicates]:
+    """Yield every group; tell how many shapes were looked at, of how many."""
     cursor: str | None = None
+    looked, known = 0, library.catalogue.counts()[Status.READY]
     while True:
         page = find_duplicates(library, cursor=cursor, relations=relations)
+        looked += page.looked
+        advance(completed=looked, total=max(looked, known))
         yield from page.items
         cursor = page.next_cursor
         if cursor is None:

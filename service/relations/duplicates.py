@@ -42,6 +42,7 @@ class DuplicatesPage:
     """One page of groups."""
 
     items: tuple[Duplicates, ...]  # by the least id of what is connected
+    looked: int  # shapes that the page has passed
     next_cursor: str | None  # give it back for the next page; None at the end
 
 
@@ -123,13 +124,14 @@ def find_duplicates(
     look = _Look(library=library, wanted=frozenset(relations))
     items: list[Duplicates] = []
     last = "" if cursor is None else _id_in(cursor)
-    for shape_id in library.catalogue.ready_after(last, work):
+    looked = 0
+    for looked, shape_id in enumerate(library.catalogue.ready_after(last, work), start=1):  # noqa: B007 - the last number is the count
         last = shape_id
         items += _groups_at(look, shape_id)
         if len(items) >= limit or len(look.asked) >= work:
             break
     more = bool(library.catalogue.ready_after(last, 1)) if last else False
-    return DuplicatesPage(items=tuple(items), next_cursor=_cursor_of(last) if more else None)
+    return DuplicatesPage(items=tuple(items), looked=looked, next_cursor=_cursor_of(last) if more else None)
 
 
 def _groups_at(look: _Look, shape_id: str) -> Iterator[Duplicates]:
