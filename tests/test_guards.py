@@ -35,6 +35,7 @@ CALLS = [
     ("GET", "/v1/shapes/x/preview.glb"),
     ("GET", "/v1/shapes/x/descriptors"),
     ("GET", "/v1/shapes/x/similar"),
+    ("POST", "/v1/shapes/x/retry"),
     ("POST", "/v1/search"),
     ("GET", "/v1/methods"),
     ("GET", "/v1/duplicates"),

@@ -20,6 +20,7 @@ PROMISED = {
     ("get", "/v1/shapes/{shape_id}/preview.glb"),
     ("get", "/v1/shapes/{shape_id}/descriptors"),
     ("get", "/v1/shapes/{shape_id}/similar"),
+    ("post", "/v1/shapes/{shape_id}/retry"),
     ("post", "/v1/search"),
     ("get", "/v1/methods"),
     ("get", "/v1/duplicates"),

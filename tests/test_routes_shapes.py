@@ -56,6 +56,17 @@ def test_a_new_shape_is_accepted_and_becomes_ready(service: Serving) -> None:
     assert ready["error"] is None
 
 
+def test_a_shape_that_failed_is_described_once_more_where_that_is_asked_for(service: Serving) -> None:
+    failed = service.add({"crash.ply": coloured_triangle(9)}, wait=60).json()
+    assert failed["error"]["code"] == "gave_up"
+    answer = service.client.post(f"/v1/shapes/{failed['id']}/retry")
+    assert (answer.status_code, answer.json()["status"], answer.json()["error"]) == (202, "queued", None)
+    assert service.settled(failed["id"])["error"]["code"] == "gave_up"
+    ready = service.add({"fine.ply": coloured_triangle(9, 1)}).json()
+    problem(service.client.post(f"/v1/shapes/{ready['id']}/retry"), 409, "not_failed")
+    problem(service.client.post("/v1/shapes/none/retry"), 404, "not_found")
+
+
 def test_waiting_answers_with_the_ready_shape(service: Serving) -> None:
     answer = service.add({"krug.ply": coloured_triangle(2)})
     assert answer.status_code == 201

@@ -7,7 +7,7 @@ import anyio
 from anyio import to_thread
 from fastapi import APIRouter, Query, Request, Response
 
-from index.errors import BadCursor
+from index.errors import BadCursor, NotFailed
 from index.shapes import Shape, Status
 from service.http.dependencies import LibraryPart, ServicesPart
 from service.http.guard_first import GuardFirst
@@ -114,6 +114,21 @@ async def change(services: ServicesPart, shape_id: str, body: ShapeChange) -> Sh
     metadata = check_metadata(body.metadata) if body.metadata is not None else None
     act = partial(change_shape, services.library, shape_id, name=name, metadata=metadata)
     return ShapeModel.of(await to_thread.run_sync(act, limiter=services.writings))
+
+
+@router.post(
+    "/shapes/{shape_id}/retry",
+    operation_id="retryShape",
+    summary="Describe a shape that failed once more",
+    status_code=202,
+    responses=problems(*CHANGING, *ONE_SHAPE, NotFailed),
+)
+async def retry(services: ServicesPart, shape_id: str) -> ShapeModel:
+    """Queue it again with the files that it has: after more memory was allowed, or a defect mended."""
+    act = services.library.catalogue.retry
+    shape = await to_thread.run_sync(act, shape_id, limiter=services.writings)
+    services.notify()
+    return ShapeModel.of(shape)
 
 
 @router.delete(
