@@ -2,7 +2,6 @@
 
 import contextlib
 import sqlite3
-import statistics
 import time
 from collections import Counter
 from collections.abc import Iterator
@@ -35,7 +34,6 @@ class LockedFigures:
     codes: Counter[str]  # of the refusals
     reads: Counter[int]  # status → how many
     slowest_read: float  # seconds
-    median_read: float  # seconds
     seconds: float  # until every upload was answered
     afterwards: int  # status of the same upload when the lock was gone
     kept: int  # shapes at the end
@@ -68,13 +66,11 @@ def run(folder: Path) -> LockedFigures:
         afterwards = _upload(url, GOOD[1]).status_code
         kept = len(client.get("/v1/shapes").json()["items"])
         service.stop()
-    times = [took for _, took in reads]
     return LockedFigures(
         uploads=Counter(answer.status_code for answer in uploads),
         codes=Counter(answer.json().get("code", "none") for answer in uploads),
         reads=Counter(status for status, _ in reads),
-        slowest_read=max(times),
-        median_read=statistics.median(times),
+        slowest_read=max(took for _, took in reads),
         seconds=seconds,
         afterwards=afterwards,
         kept=kept,

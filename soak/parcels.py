@@ -9,6 +9,7 @@ from PIL import Image
 CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)  # of a box
 QUADS = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
 KINDS = ("ply", "obj", "zip", "empty")
+TEXTURED = 499_999  # a parcel of an OBJ with its MTL and its picture, which no other part of the soak sends
 EMPTY = "zero_area"  # the code of the last kind, which only the worker finds
 
 Parcel = dict[str, bytes]  # file name → content

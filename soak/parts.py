@@ -11,12 +11,11 @@ from soak import crashes, fuzz, locked, small_disk
 from soak.contract import check_contract
 from soak.crowd import concurrent_uploads
 from soak.cut import cut_uploads, last_cut, seams
-from soak.parcels import kind_of, parcel
+from soak.parcels import TEXTURED, kind_of, parcel
 from soak.processes import ending, free_port, serve, start, wait_until
-from soak.stalled import stalled_clients
+from soak.stalled import RELEASE_SECONDS, stalled_clients
 from soak.target import Target
 from soak.target import form as form_of
-from soak.uploads import RELEASE_SECONDS, TEXTURED
 from soak.wire import Address
 
 Report = Callable[[str], None]  # takes a line for whoever waits

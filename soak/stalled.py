@@ -17,6 +17,7 @@ Sent = ParamSpec("Sent")
 
 SMALL_BUFFER = 4096  # bytes that a client which does not read takes at most, more or less
 FILL = 200  # answers asked for by a client that reads none: more than every buffer on the way holds
+RELEASE_SECONDS = 75.0  # until all are let go of; the longest of the service's own patience is a minute
 GRACE = 10.0  # seconds for what is on its way
 DEAF = "answer"  # the place of a client that does not read
 FIRST_PARCEL = 500_000  # of the uploads here; other parts of the soak send parcels of smaller numbers

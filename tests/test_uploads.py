@@ -9,10 +9,9 @@ import pytest
 from service.http.connections import BoundedConnection
 from soak.crowd import concurrent_uploads
 from soak.cut import Way, cut_uploads, last_cut, seams
-from soak.parcels import kind_of, parcel
+from soak.parcels import TEXTURED, kind_of, parcel
 from soak.stalled import FIRST_PARCEL, PLACES, stalled_clients
 from soak.target import Target, form
-from soak.uploads import TEXTURED
 from soak.wire import connected, read_reply
 from tests.fakes import coloured_triangle
 from tests.problems import problem
