@@ -1,5 +1,5 @@
 # Every command sets up what it needs; `make setup` alone prepares .venv.
-.PHONY: setup run test check soak lock vocabulary picture evaluation choices relations bench
+.PHONY: setup run test check soak lock vocabulary vendor picture evaluation choices relations bench
 VENV := .venv
 PYTHON := $(VENV)/bin/python
 STAMP := $(VENV)/.complete
@@ -36,6 +36,10 @@ lock:
 # Learns the vocabulary that ships with the project again, from shapes made by its own code.
 vocabulary: setup
 	$(PYTHON) -m benchmarks.default_vocabulary
+
+# Bundles the npm packages that the page uses again, after a version was changed in the script; needs node and npm.
+vendor:
+	service/static/vendor/refresh.sh
 
 # Draws the picture of the README.
 picture: setup

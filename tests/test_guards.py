@@ -104,7 +104,7 @@ def test_any_known_key_opens(service: Serving, key: str) -> None:
     assert service.client.get("/v1/shapes", headers=header).status_code == 200
 
 
-@pytest.mark.parametrize("path", ["/livez", "/readyz", "/", "/docs", "/openapi.json", "/static/page.js"])
+@pytest.mark.parametrize("path", ["/livez", "/readyz", "/", "/docs", "/openapi.json", "/static/app.js"])
 def test_what_holds_nothing_of_the_library_is_open(service: Serving, path: str) -> None:
     assert service.client.get(path).status_code == 200
 

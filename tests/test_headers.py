@@ -38,7 +38,7 @@ def check(answer: httpx.Response, status: int) -> None:
         ("GET", "/metrics", KEY, 200),
         ("GET", "/", {}, 200),
         ("GET", "/docs", {}, 200),
-        ("GET", "/static/page.js", {}, 200),
+        ("GET", "/static/app.js", {}, 200),
         ("GET", "/openapi.json", {}, 200),
         ("GET", "/livez", {}, 200),
         ("GET", "/favicon.ico", {}, 307),

@@ -13,7 +13,7 @@ PAGE = """<!doctype html>
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <title>{title}: interface</title>
 <link rel="icon" href="/static/icon.svg">
-<link rel="stylesheet" href="/static/page.css">
+<link rel="stylesheet" href="/static/styles/base.css">
 </head>
 <body>
 <header><a href="/">{title}</a> {version}</header>

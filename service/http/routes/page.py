@@ -1,38 +1,33 @@
 """The page and the manual: files of this package, nothing from elsewhere."""
 
-from importlib.resources import files
-
 from fastapi import APIRouter, Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 
 from index.errors import FileMissing
 from service.http.manual import manual
+from service.http.page_files import page_files
 
 router = APIRouter(include_in_schema=False)
 
-STATIC = files("service") / "static"
-TYPES = {
-    "index.html": "text/html",
-    "page.js": "text/javascript",
-    "page.css": "text/css",
-    "icon.svg": "image/svg+xml",
-}
-
 
 @router.get("/")
-def page() -> Response:
+def page(request: Request) -> Response:
     """Return the page."""
-    return static("index.html")
+    return static(request, "index.html")
 
 
-@router.get("/static/{name}")
-def static(name: str) -> Response:
-    """Return one of the page's files."""
-    if name not in TYPES:
+@router.get("/static/{name:path}")
+def static(request: Request, name: str) -> Response:
+    """Return one of the page's files, or that the browser's copy is still right."""
+    file = page_files().get(name)
+    if file is None:
         raise FileMissing(f"the page has no file {name!r}")
-    return Response(
-        (STATIC / name).read_bytes(), media_type=TYPES[name], headers={"Cache-Control": "no-cache"}
-    )
+    headers = {"Cache-Control": "no-cache", "ETag": file.tag, "Vary": "Accept-Encoding"}
+    if file.tag in request.headers.get("if-none-match", ""):
+        return Response(status_code=304, headers=headers)
+    if "gzip" not in request.headers.get("accept-encoding", ""):
+        return Response(file.content, media_type=file.media_type, headers=headers)
+    return Response(file.packed, media_type=file.media_type, headers=headers | {"Content-Encoding": "gzip"})
 
 
 @router.get("/favicon.ico")

@@ -1,0 +1,50 @@
+// The start of the page: the address after # chooses a view, which lives until the next one.
+
+import { html, render } from "./vendor/lit-html.js";
+import { Problem } from "./shared/api.js";
+import { askForKey } from "./shared/key.js";
+import { routeOf } from "./routes.js";
+
+const main = document.getElementById("main");
+let leaving = new AbortController();
+
+async function show() {
+  leaving.abort();
+  leaving = new AbortController();
+  const { signal } = leaving;
+  const { view, parameters, section } = routeOf(location.hash);
+  const root = document.createElement("div");
+  markSection(section);
+  main.replaceChildren(root);
+  try {
+    await view({ root, parameters, signal });
+  } catch (error) {
+    if (!signal.aborted) explain(error, root);
+  }
+}
+
+/** Say what went wrong in the place of the view; without a key, ask for one. */
+function explain(error, root) {
+  if (error instanceof Problem && error.status === 401) {
+    askForKey(root, show);
+    return;
+  }
+  render(html`<h1>This did not work</h1>
+    <p role="alert">${error.message}</p>
+    <p><button @click=${show}>Try again</button> <a href="#/">To the library</a></p>`, root);
+  if (!(error instanceof Problem)) throw error; // a defect of ours belongs into the console, too
+}
+
+function markSection(section) {
+  for (const link of document.querySelectorAll("nav a")) {
+    if (link.getAttribute("href") === section) link.setAttribute("aria-current", "page");
+    else link.removeAttribute("aria-current");
+  }
+}
+
+window.addEventListener("hashchange", () => {
+  show();
+  main.focus({ preventScroll: true }); // a new page: those who listen begin at its content
+  window.scrollTo(0, 0);
+});
+show();
