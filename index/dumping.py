@@ -93,21 +93,20 @@ def one_moment(engine: Engine) -> Iterator[Moment]:
 
     SQLite keeps what they write in its log until this ends.
     """
-    if engine.dialect.name != "sqlite":  # by default, PostgreSQL would show each statement another moment
-        engine = engine.execution_options(isolation_level="REPEATABLE READ")
     with reading(engine) as session:
         yield Moment(session)
 
 
 def _rows(connection: Connection, table: Table, gone: Gone) -> Iterator[dict[str, Any]]:
     links = _links(table)
-    for row in connection.execute(select(table), execution_options={"yield_per": _AT_ONCE}).mappings():
-        if any(row[name] in gone[place] for name, place in links):
-            for name in row:
-                if (table.name, name) in gone:
-                    gone[table.name, name].add(row[name])
-        else:
-            yield _released(table, row)
+    with connection.execute(select(table), execution_options={"yield_per": _AT_ONCE}) as rows:
+        for row in rows.mappings():
+            if any(row[name] in gone[place] for name, place in links):
+                for name in row:
+                    if (table.name, name) in gone:
+                        gone[table.name, name].add(row[name])
+            else:
+                yield _released(table, row)
 
 
 def _links(table: Table) -> list[tuple[str, Place]]:

@@ -105,6 +105,12 @@ class CatalogueBusy(CatalogueError):
     code = "busy"
 
 
+class UnknownDatabase(CatalogueError):
+    """The address of the catalogue's database names a kind that is not supported."""
+
+    code = "unknown_database"
+
+
 class DamagedIndex(CatalogueError):
     """A saved search index is truncated, altered or of another format."""
 

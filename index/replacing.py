@@ -5,6 +5,7 @@ from sqlalchemy import Connection, Engine, Table, func, insert, select, update
 from index.database import writing
 from index.dumping import FREE_JOB
 from index.errors import LibraryNotEmpty
+from index.postgresql import go_on_after
 from index.revisions import lock_state
 from index.schema import library_tables
 from index.shapes import CatalogueState, Status
@@ -51,8 +52,9 @@ def check_empty(n_shapes: int) -> None:
 def _copy(source: Connection, target: Connection, table: Table) -> None:
     rows = source.execute(select(table), execution_options={"yield_per": _ROWS}).mappings()
     for part in rows.partitions():
-        # A PostgreSQL sequence would have to be told of the ids that are given here.
         target.execute(insert(table), [dict(row) for row in part])
+    if target.dialect.name == "postgresql":
+        go_on_after(target, table)
 
 
 def _free_jobs(target: Connection) -> None:

@@ -4,7 +4,7 @@ from alembic.migration import MigrationContext
 from alembic.script import ScriptDirectory
 from sqlalchemy import JSON, Connection, MetaData, Table
 
-from index.database import migrations
+from index.migrating import migrations
 
 LEFT_OUT = frozenset(
     {"alembic_version", "api_keys"}

@@ -46,11 +46,12 @@ def _check_state(session: Session) -> None:
 def _check_shapes(session: Session) -> None:
     columns = (ShapeRow.id, ShapeRow.status, ShapeRow.user_metadata, ShapeRow.facts)
     known = set(Status)
-    for row in session.execute(select(*columns), execution_options={"yield_per": _AT_ONCE}):
-        if row.status not in known:
-            raise DamagedExport(f"the shape {row.id!r:.50} has the unknown state {row.status!r:.50}")
-        if not isinstance(row.user_metadata, dict) or not isinstance(row.facts, dict | None):
-            raise DamagedExport(f"metadata and facts of the shape {row.id!r:.50} must be JSON objects")
+    with session.execute(select(*columns), execution_options={"yield_per": _AT_ONCE}) as rows:
+        for row in rows:
+            if row.status not in known:
+                raise DamagedExport(f"the shape {row.id!r:.50} has the unknown state {row.status!r:.50}")
+            if not isinstance(row.user_metadata, dict) or not isinstance(row.facts, dict | None):
+                raise DamagedExport(f"metadata and facts of the shape {row.id!r:.50} must be JSON objects")
 
 
 def _check_vocabularies(session: Session) -> None:
@@ -69,13 +70,14 @@ def _check_blocks(session: Session) -> None:
     )
     lengths: dict[tuple[str, str], int] = {}
     for query in queries:
-        for row in session.execute(query, execution_options={"yield_per": _AT_ONCE}):
-            length = _length_of(row.data)
-            if length is None or lengths.setdefault((row.kind, row.name), length) != length:
-                raise DamagedExport(
-                    f"the block {row.name!r:.50} of the shape {row.shape_id!r:.50} is damaged, or its length"
-                    " is not that of the others"
-                )
+        with session.execute(query, execution_options={"yield_per": _AT_ONCE}) as rows:
+            for row in rows:
+                length = _length_of(row.data)
+                if length is None or lengths.setdefault((row.kind, row.name), length) != length:
+                    raise DamagedExport(
+                        f"the block {row.name!r:.50} of the shape {row.shape_id!r:.50} is damaged, or its"
+                        " length is not that of the others"
+                    )
 
 
 def _length_of(data: bytes) -> int | None:

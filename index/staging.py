@@ -9,8 +9,9 @@ from typing import Any, Self
 from sqlalchemy import Connection, Engine, Table, insert
 from sqlalchemy.exc import IntegrityError
 
-from index.database import make_engine, migrate, reading, writing
+from index.database import make_engine, reading, writing
 from index.errors import DamagedExport, NewerFormat
+from index.migrating import migrate
 from index.portable import readers_of, row_of
 from index.schema import is_known, library_tables
 from index.soundness import check_sound

@@ -6,9 +6,10 @@ from dataclasses import dataclass, field
 from sqlalchemy import Engine
 
 from index.catalogue import Catalogue
-from index.database import make_engine, migrate
+from index.database import make_engine
 from index.errors import StorageFull
 from index.files import FileStore
+from index.migrating import migrate
 from index.queue import Queue
 from index.searcher import Searcher
 from index.vocabulary import Vocabulary, default_vocabulary

@@ -9,10 +9,12 @@ import numpy.typing as npt
 from sqlalchemy import Engine
 
 from index.catalogue import Catalogue
-from index.database import make_engine, migrate
+from index.database import make_engine
+from index.migrating import migrate
 from index.queue import Queue
 from index.shapes import Shape, StoredFile
 from index.vocabulary import Vocabulary
+from tests.databases import DATABASES
 
 FINGERPRINT = "0123456789abcdef"
 HISTOGRAM = {"colour-histogram": np.array([0.5, 0.0, 0.5], dtype=np.float32)}
@@ -40,7 +42,7 @@ def make_vocabulary(number: int = 1, fingerprint: str = FINGERPRINT) -> Vocabula
 
 def open_catalogue(folder: Path) -> Opened:
     """Open the catalogue of a folder, made where there is none."""
-    engine = make_engine(f"sqlite:///{folder / 'catalogue.db'}")
+    engine = make_engine(DATABASES.url(folder))
     migrate(engine)
     catalogue = Catalogue(engine)
     active = catalogue.state().vocabulary_id

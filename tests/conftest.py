@@ -8,6 +8,7 @@ from hypothesis import settings
 from playwright.sync_api import Browser
 
 from tests.browsing import chromium_path, launched
+from tests.databases import DATABASES, KINDS, postgresql
 
 settings.register_profile("shared machine", deadline=None)  # others work on it too: time proves nothing
 settings.load_profile("shared machine")
@@ -42,3 +43,21 @@ def browser() -> Iterator[Browser]:
         pytest.skip("no Chromium on this machine; with apt: apt-get install chromium")
     with launched(executable) as started:
         yield started
+
+
+@pytest.fixture(scope="session")
+def database_server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """Start PostgreSQL once for all tests of a process that need it."""
+    with postgresql(tmp_path_factory.mktemp("postgresql") / "data") as address:
+        yield address
+
+
+@pytest.fixture(scope="module", params=KINDS)
+def database(request: pytest.FixtureRequest) -> Iterator[str]:
+    """Run the tests of a module twice, with catalogues in SQLite and in PostgreSQL."""
+    kind: str = request.param
+    if kind == "postgresql":
+        DATABASES.server = request.getfixturevalue("database_server")
+    DATABASES.kind = kind
+    yield kind
+    DATABASES.kind = "sqlite"

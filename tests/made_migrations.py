@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from index import database
+from index import migrating
 
 STEP = '''"""A step that was never made."""
 
@@ -64,8 +64,8 @@ def pretend_newer(patch: pytest.MonkeyPatch, folder: Path, body: str = INITIALS)
 def _copied(patch: pytest.MonkeyPatch, folder: Path) -> Path:
     copy = folder / "migrations"
     ignored = shutil.ignore_patterns("__pycache__")
-    shutil.copytree(Path(database.__file__).parent / "migrations", copy, ignore=ignored)
-    patch.setattr(database, "SCRIPTS", copy)
+    shutil.copytree(Path(migrating.__file__).parent / "migrations", copy, ignore=ignored)
+    patch.setattr(migrating, "SCRIPTS", copy)
     return copy / "versions"
 
 

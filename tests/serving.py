@@ -20,6 +20,7 @@ from service.jobs.describing import Describe
 from service.library import Library
 from service.settings import Settings
 from soak.wire import Address
+from tests.databases import DATABASES
 from tests.fakes import describe_quickly, fake_signatures
 from worker.parameters import Parameters
 
@@ -36,6 +37,9 @@ def settings_for(folder: Path, **changes: Any) -> Settings:
         "reserve_bytes": 2**20,
         "workers": 2,
     }
+    if DATABASES.kind == "postgresql":
+        folder.mkdir(parents=True, exist_ok=True)
+        quick["database_url"] = DATABASES.url(folder)
     return Settings(**{**quick, **changes})
 
 

@@ -9,8 +9,9 @@ from alembic.autogenerate import compare_metadata
 from alembic.migration import MigrationContext
 from sqlalchemy import event, inspect, select, text
 
-from index.database import make_engine, migrate, reading, writing
-from index.errors import CatalogueBusy, StorageFull
+from index.database import make_engine, reading, writing
+from index.errors import CatalogueBusy, StorageFull, UnknownDatabase
+from index.migrating import migrate
 from index.revisions import now
 from index.tables import Base, StateRow, VocabularyRow
 from tests.catalogues import add_ready, open_catalogue
@@ -169,3 +170,8 @@ def test_a_step_that_breaks_references_is_undone(tmp_path: Path, monkeypatch: py
         migrate(opened.engine)
     assert opened.catalogue.get("one").name == "shape one"
     opened.engine.dispose()
+
+
+def test_other_kinds_of_databases_are_refused_by_name() -> None:
+    with pytest.raises(UnknownDatabase, match="sqlite or postgresql, not in 'mysql'"):
+        make_engine("mysql://somewhere/else")

@@ -20,6 +20,8 @@ from tests.catalogues import (
     open_catalogue,
 )
 
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+
 
 @pytest.fixture
 def opened(tmp_path: Path) -> Iterator[Opened]:

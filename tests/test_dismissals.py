@@ -16,6 +16,8 @@ from index.revisions import now
 from index.tables import DismissalRow
 from tests.catalogues import Opened, add_queued, open_catalogue
 
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+
 
 @pytest.fixture
 def opened(tmp_path: Path) -> Iterator[Opened]:

@@ -3,8 +3,12 @@
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 from index.dumping import Moment, one_moment
 from tests.catalogues import Opened, add_queued, add_ready, open_catalogue
+
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
 
 
 def dumped(moment: Moment, but: tuple[str, ...] = ()) -> dict[str, list[dict[str, Any]]]:

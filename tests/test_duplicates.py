@@ -19,6 +19,8 @@ from tests.backups import claimed, opened
 from tests.fakes import coloured_triangle, fake_description
 from worker.reading.upload import Upload, read_mesh
 
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+
 ONE, OTHER = coloured_triangle(200, 100, 50), coloured_triangle(200, 100, 250)  # in two colours
 FAR = coloured_triangle(20, 100, 50)  # fake descriptions take the shape from red
 

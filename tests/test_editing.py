@@ -10,6 +10,8 @@ from index.shapes import StoredFile
 from index.tables import Base
 from tests.catalogues import Opened, add_queued, add_ready, open_catalogue
 
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+
 
 @pytest.fixture
 def opened(tmp_path: Path) -> Iterator[Opened]:

@@ -33,6 +33,8 @@ from tests.backups import (
 )
 from tests.made_migrations import DECISIONS, pretend_newer
 
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+
 
 def lines(data: bytes) -> list[dict[str, Any]]:
     return [json.loads(line) for line in data.splitlines()]

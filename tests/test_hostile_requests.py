@@ -9,6 +9,8 @@ from soak.wire import exchange
 from tests.fakes import coloured_triangle
 from tests.serving import Serving, serving, settings_for
 
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+
 HOST = b"Host: localhost\r\n"
 FORM = b"Content-Type: multipart/form-data; boundary=b0\r\n"
 JSON = b"Content-Type: application/json\r\n"
@@ -192,13 +194,13 @@ CASES = HEADS | BODIES | ADDRESSES | RANGE_CASES
 
 
 @pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Serving]:
+def service(database: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Serving]:
     with serving(settings_for(tmp_path_factory.mktemp("library"), workers=1)) as running:
         yield running
 
 
 @pytest.fixture(scope="module")
-def shape_id(service: Serving) -> bytes:
+def shape_id(database: str, service: Serving) -> bytes:
     shape: dict[str, str] = service.add({"a.ply": coloured_triangle()}).json()
     return shape["id"].encode()
 

@@ -17,6 +17,8 @@ from service.key_ring import KeyRing, KeysUnreadable, Unauthorised
 from service.settings import Settings
 from tests.serving import wait_until
 
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+
 GIVEN = "a-long-secret"
 ALONE = Settings(host="127.0.0.1")
 FOR_OTHERS = Settings(host="0.0.0.0")  # noqa: S104 - nothing listens

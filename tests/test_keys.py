@@ -6,12 +6,15 @@ from pathlib import Path
 import pytest
 from sqlalchemy import Engine, create_engine, text
 
-from index.database import make_engine, migrate
+from index.database import make_engine
 from index.errors import BadKeyName, KeyNotFound
 from index.key_secrets import digest_of
 from index.keys import NAME_LENGTH, Keys, has_active_key
+from index.migrating import migrate
 from index.revisions import now
 from index.scopes import Scope
+
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
 
 
 def url_in(folder: Path) -> str:

@@ -5,8 +5,9 @@ from pathlib import Path
 import pytest
 from pydantic import SecretStr
 
-from index.database import make_engine, migrate
+from index.database import make_engine
 from index.keys import Keys
+from index.migrating import migrate
 from index.scopes import Scope
 from service.listening import UnsafeListening, check_listening
 from service.settings import Settings

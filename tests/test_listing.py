@@ -9,6 +9,8 @@ from index.errors import BadCursor, ShapeNotFound
 from index.shapes import Status
 from tests.catalogues import Opened, add_queued, add_ready, open_catalogue
 
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+
 
 @pytest.fixture
 def opened(tmp_path: Path) -> Iterator[Opened]:

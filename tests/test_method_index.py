@@ -9,6 +9,8 @@ from index.method_index import MethodIndex
 from index.methods import METHODS
 from tests.catalogues import Opened, add_ready, make_vocabulary, open_catalogue
 
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+
 QUERY = {"hks-0": np.array([0.0, 0.0], dtype=np.float32)}
 NEW = make_vocabulary(2)
 

@@ -10,6 +10,9 @@ from index.database import looking
 from index.prepared import Prepared, PreparedLists, listed
 from index.tables import ShapeRow
 from tests.catalogues import Opened, add_ready, open_catalogue
+from tests.databases import only_on_sqlite
+
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
 
 SHAPES = ShapeRow.__table__.c
 ONE = select(SHAPES.name, SHAPES.created_at, SHAPES["metadata"], SHAPES.allow_untextured).where(
@@ -59,6 +62,7 @@ def test_a_transaction_sees_one_moment(opened: Opened) -> None:
         assert len(one.rows(cursor, {"shape_id": "a"})) == 1
 
 
+@only_on_sqlite
 def test_failures_have_the_names_that_they_have_elsewhere(opened: Opened) -> None:
     with pytest.raises(OperationalError, match="no such table"), looking(opened.engine) as cursor:
         cursor.execute("SELECT 1 FROM nowhere")

@@ -7,6 +7,8 @@ import pytest
 from index.errors import NotReady, ShapeNotFound
 from tests.catalogues import HISTOGRAM, WORDS, Opened, add_queued, add_ready, open_catalogue
 
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+
 NAMES = {*HISTOGRAM, *WORDS}
 
 

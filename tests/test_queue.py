@@ -13,6 +13,9 @@ from index.jobs import MAX_ATTEMPTS, Job
 from index.queue import Queue
 from index.shapes import Status
 from tests.catalogues import FINGERPRINT, HISTOGRAM, WORDS, Opened, add_queued, open_catalogue
+from tests.databases import only_on_sqlite
+
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
 
 
 class Clock:
@@ -196,6 +199,7 @@ def test_giving_back_is_no_attempt(opened: Opened, queue: Queue) -> None:
         queue.heartbeat(job, 60)
 
 
+@only_on_sqlite
 def test_asking_an_empty_queue_locks_nobody_out(opened: Opened, queue: Queue) -> None:
     statements: list[str] = []
     event.listen(opened.engine, "before_cursor_execute", lambda *told: statements.append(told[2]))

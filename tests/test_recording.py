@@ -17,6 +17,8 @@ from tests.fakes import coloured_triangle, describe_quickly
 from tests.serving import open_fake_library, settings_for
 from worker.describe import Description
 
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+
 
 @pytest.fixture
 def library(tmp_path: Path) -> Iterator[Library]:

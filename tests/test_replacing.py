@@ -10,6 +10,8 @@ from index.errors import LibraryNotEmpty
 from index.replacing import check_empty, replace_library
 from tests.catalogues import Opened, add_queued, add_ready, open_catalogue
 
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+
 
 def rows_of(opened: Opened) -> dict[str, list[dict[str, Any]]]:
     with one_moment(opened.engine) as moment:

@@ -14,6 +14,8 @@ from tests.fakes import coloured_triangle
 from tests.serving import open_fake_library, settings_for
 from worker.errors import MeshError
 
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+
 
 @pytest.fixture
 def library(tmp_path: Path) -> Iterator[Library]:

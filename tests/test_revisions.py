@@ -6,6 +6,9 @@ import pytest
 from sqlalchemy import event
 
 from tests.catalogues import Opened, add_queued, add_ready, open_catalogue
+from tests.databases import only_on_sqlite
+
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
 
 
 @pytest.fixture
@@ -49,6 +52,7 @@ def test_changes_come_in_their_order_with_removals_apart(opened: Opened) -> None
     assert (changes.changed, changes.removed) == (("c", "a"), ("b",))
 
 
+@only_on_sqlite
 def test_the_state_costs_one_statement(opened: Opened) -> None:
     statements: list[str] = []
     event.listen(opened.engine, "checkout", lambda taken, *_: taken.set_trace_callback(statements.append))

@@ -12,6 +12,8 @@ from tests.problems import problem
 from tests.serving import Serving, serving, settings_for, wait_until
 from tests.test_duplicates import FAR, ONE, OTHER, exported_anew
 
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+
 MESHES = {"a": ONE, "b": exported_anew(ONE, 1), "c": OTHER, "d": FAR, "e": exported_anew(FAR, 1)}
 
 

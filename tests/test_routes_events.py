@@ -11,6 +11,8 @@ from tests.fakes import coloured_triangle
 from tests.problems import problem
 from tests.serving import Serving, serving, settings_for
 
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+
 
 @pytest.fixture
 def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Serving]:

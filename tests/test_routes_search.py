@@ -9,11 +9,13 @@ from tests.fakes import coloured_triangle
 from tests.problems import problem
 from tests.serving import Serving, serving, settings_for
 
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+
 LEVELS = (10, 60, 130, 250)  # of red; the fake description orders shapes by it
 
 
 @pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Serving]:
+def service(database: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Serving]:
     with serving(settings_for(tmp_path_factory.mktemp("library"))) as running:
         for level in LEVELS:
             assert running.add({f"red{level}.ply": coloured_triangle(level)}).status_code == 201

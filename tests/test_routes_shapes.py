@@ -14,17 +14,19 @@ from tests.fakes import coloured_triangle
 from tests.problems import problem
 from tests.serving import Serving, serving, settings_for
 
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+
 OBJ = b"mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\nf 1/1 2/1 4/1\n"
 
 
 @pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Serving]:
+def service(database: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Serving]:
     with serving(settings_for(tmp_path_factory.mktemp("library"))) as running:
         yield running
 
 
 @pytest.fixture(scope="module")
-def idle(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Serving]:
+def idle(database: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Serving]:
     """Run a service without a worker: shapes stay queued."""
     with serving(settings_for(tmp_path_factory.mktemp("idle"), workers=0, max_body_bytes=100_000)) as running:
         yield running

@@ -5,7 +5,8 @@ from pathlib import Path
 import pytest
 from sqlalchemy import JSON, insert, select, text
 
-from index.database import make_engine, migrate
+from index.database import make_engine
+from index.migrating import migrate
 from index.portable import readers_of
 from index.schema import LEFT_OUT, is_known, library_tables, revision_of
 from index.tables import Base

@@ -20,6 +20,9 @@ from index.methods import METHODS, with_weights
 from index.searcher import Searcher
 from tests.brute_force import METHOD_NAMES, PLAIN, Blocks, add, agrees, brute_force, make_blocks
 from tests.catalogues import Opened, add_queued, add_ready, make_vocabulary, open_catalogue
+from tests.databases import only_on_sqlite
+
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
 
 
 @pytest.fixture
@@ -90,6 +93,7 @@ def test_changes_by_another_process_are_seen_by_the_next_search(opened: Opened, 
     assert len(searcher.search("hks", make_blocks(1), 9)) == 4
 
 
+@only_on_sqlite
 def test_a_searcher_with_nothing_new_costs_one_select(opened: Opened, tmp_path: Path) -> None:
     for number in range(5):
         add(opened, number)
@@ -164,6 +168,7 @@ def test_an_index_of_another_library_is_not_believed(opened: Opened, tmp_path: P
     other.engine.dispose()
 
 
+@only_on_sqlite
 def test_an_index_newer_than_a_restored_catalogue_is_not_believed(tmp_path: Path) -> None:
     """The catalogue is put back from a copy, then grows beyond the index's revision in another way."""
     lost = open_catalogue(tmp_path)

@@ -17,6 +17,8 @@ from tests.catalogues import HISTOGRAM, WORDS, Opened, add_queued, add_ready, op
 from worker.describe import describe
 from worker.reading.upload import Upload
 
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+
 
 @pytest.fixture
 def opened(tmp_path: Path) -> Iterator[Opened]:

@@ -11,6 +11,8 @@ from index.errors import BadBlock, FingerprintMismatch, NotReady, ShapeNotFound,
 from index.tables import QuantisedBlockRow
 from tests.catalogues import Opened, add_queued, add_ready, make_vocabulary, open_catalogue
 
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+
 NEW = make_vocabulary(2)
 NEW_WORDS = {"hks-0": np.array([0.1, 0.2, 0.7], dtype=np.float32)}
 

@@ -12,6 +12,8 @@ from service.retrieval import accept_upload
 from tests.fakes import coloured_triangle
 from tests.serving import open_fake_library, settings_for
 
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+
 
 @pytest.fixture
 def library(tmp_path: Path) -> Iterator[Library]:

