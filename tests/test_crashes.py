@@ -2,12 +2,19 @@
 
 from pathlib import Path
 
+import pytest
+
 from soak.crashes import TARGETS, kills_of, run
+from tests.databases import DATABASES
 
 KILLS = 12
 
 
-def test_kills_at_any_moment_lose_nothing_double_nothing_and_leave_nothing(tmp_path: Path) -> None:
+def test_kills_at_any_moment_lose_nothing_double_nothing_and_leave_nothing(
+    database: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    if database == "postgresql":
+        monkeypatch.setenv("FAIENCE_DATABASE_URL", DATABASES.url(tmp_path))
     done: list[int] = []
     figures = run(tmp_path, KILLS, seed=2011, report=done.append)
     assert figures.broken == []
