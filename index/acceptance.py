@@ -13,6 +13,7 @@ from index.revisions import lock_state, now, touch
 from index.rows import describe_for_search, file_rows, shape_of, shape_row
 from index.shapes import Shape, Status, StoredFile
 from index.tables import ShapeRow, TombstoneRow
+from index.tags import write_tags
 
 
 class Acceptance:
@@ -50,6 +51,7 @@ class Acceptance:
             session.flush()  # the old files' rows go before the new ones take their places
             row.files.extend(file_rows(files))
             describe_for_search(row)
+            write_tags(session, row)
             _queue(session, row)
             return shape_of(row), True
 

@@ -7,10 +7,12 @@ from index.descriptions import Descriptions
 from index.dismissals import Dismissals
 from index.editing import Editing
 from index.listing import Listing
+from index.progress import Progress
 from index.questions import Questions
 from index.revisions import Revisions
 from index.stored_blocks import StoredBlocks
 from index.stored_vocabularies import Vocabularies
+from index.tags import Tags
 
 
 class Catalogue(
@@ -23,6 +25,8 @@ class Catalogue(
     Listing,
     Questions,
     Dismissals,
+    Tags,
+    Progress,
 ):
     """Shapes, their descriptors and vocabularies; each of the classes above is one of its concerns.
 

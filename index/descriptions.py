@@ -10,12 +10,12 @@ from sqlalchemy.orm import Session
 from index.blocks import checked_blocks
 from index.database import writing
 from index.errors import BadBlock, FingerprintMismatch, UnknownVocabulary, VocabularyChanged
-from index.jobs import Job, held_row
+from index.jobs import Job, end_job
 from index.revisions import lock_state, touch
 from index.rows import shape_of, shape_row
 from index.shapes import Shape, Status
 from index.stored_blocks import write_plain, write_quantised
-from index.tables import ShapeRow, StateRow, VocabularyRow
+from index.tables import StateRow, VocabularyRow
 
 
 class Descriptions:
@@ -62,7 +62,8 @@ class Descriptions:
         plain, words = checked_blocks(blocks), checked_quantised(quantised)
         with writing(self._engine) as session:
             state = lock_state(session)
-            row = _end_job(session, job)
+            end_job(session, job, Status.READY)
+            row = shape_row(session, job.shape_id)
             _check_vocabulary(session, state, vocabulary_id, fingerprint)
             write_plain(session, row.id, plain)
             write_quantised(session, row.id, vocabulary_id, words)
@@ -75,7 +76,8 @@ class Descriptions:
         """Store why there is no description and end the job; LeaseLost as for `record_ready`."""
         with writing(self._engine) as session:
             lock_state(session)
-            row = _end_job(session, job)
+            end_job(session, job, code)
+            row = shape_row(session, job.shape_id)
             row.status, row.error_code, row.error_detail = Status.FAILED, code, detail
             touch(session, row)
             return shape_of(row)
@@ -109,8 +111,3 @@ def _check_vocabulary(session: Session, state: StateRow, vocabulary_id: str, fin
     check_fingerprint(known_vocabulary(session, vocabulary_id), fingerprint)
     if state.vocabulary_id != vocabulary_id:
         raise VocabularyChanged(f"the active vocabulary is {state.vocabulary_id}, not {vocabulary_id}")
-
-
-def _end_job(session: Session, job: Job) -> ShapeRow:
-    session.delete(held_row(session, job))
-    return shape_row(session, job.shape_id)

@@ -18,7 +18,7 @@ from index.tables import JobRow, ShapeRow
 _AT_ONCE = 500  # rows
 
 # A job that is dumped is free: whoever holds it works for the library that it was taken from.
-FREE_JOB = {"attempts": 0, "lease_until": None, "worker": None, "token": None}
+FREE_JOB = {"attempts": 0, "lease_until": None, "claimed_at": None, "worker": None, "token": None}
 
 Place = tuple[str, str]  # a table and its column
 Gone = dict[Place, set[Any]]  # of each column that others refer to, the values that are left out

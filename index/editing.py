@@ -10,6 +10,7 @@ from index.revisions import lock_state, next_revision, touch
 from index.rows import describe_for_search, shape_of, shape_row, stored_files
 from index.shapes import Shape, StoredFile
 from index.tables import TombstoneRow
+from index.tags import write_tags
 
 
 class Editing:
@@ -30,6 +31,7 @@ class Editing:
                 row.user_metadata = dict(metadata)
             if name is not None or metadata is not None:
                 describe_for_search(row)
+                write_tags(session, row)
                 touch(session, row)
             return shape_of(row)
 

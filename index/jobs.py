@@ -1,15 +1,17 @@
 """Jobs: work on a shape, enqueued with it and gone with its result."""
 
 from dataclasses import dataclass
-from datetime import datetime
+from datetime import datetime, timedelta
 
-from sqlalchemy import select
+from sqlalchemy import delete, select
 from sqlalchemy.orm import Session
 
 from index.errors import LeaseLost
-from index.tables import JobRow
+from index.revisions import now
+from index.tables import FinishedJobRow, JobRow
 
 MAX_ATTEMPTS = 3  # claims of one job before it is given up
+REMEMBERED = timedelta(hours=1)  # how long it is known how fast a job was
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,7 +28,7 @@ class Job:
 
 def enqueue(session: Session, shape_id: str) -> None:
     """Add a job, in the transaction that makes it necessary."""
-    session.add(JobRow(shape_id=shape_id, attempts=0))
+    session.add(JobRow(shape_id=shape_id, attempts=0, queued_at=now()))
 
 
 def held_row(session: Session, job: Job) -> JobRow:
@@ -40,3 +42,12 @@ def held_row(session: Session, job: Job) -> JobRow:
     if row is None:
         raise LeaseLost(f"job {job.id} is no longer held by {job.worker}")
     return row
+
+
+def end_job(session: Session, job: Job, outcome: str) -> None:
+    """Remove a job that is still its worker's, and note how long it took; LeaseLost otherwise."""
+    row, moment = held_row(session, job), now()
+    seconds = (moment - (row.claimed_at or moment)).total_seconds()
+    session.delete(row)
+    session.add(FinishedJobRow(finished_at=moment, seconds=seconds, outcome=outcome, worker=job.worker))
+    session.execute(delete(FinishedJobRow).where(FinishedJobRow.finished_at < moment - REMEMBERED))

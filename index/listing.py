@@ -1,7 +1,8 @@
 """Listing: shapes one by one, and page by page."""
 
 from base64 import urlsafe_b64decode, urlsafe_b64encode
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import Any, TypeVar
 
 from sqlalchemy import Engine, Select, false, func, select
 
@@ -10,6 +11,9 @@ from index.errors import BadCursor
 from index.rows import folded, shape_of, shape_row
 from index.shapes import Page, Shape, Status
 from index.tables import FileRow, ShapeRow
+from index.tags import having
+
+Some = TypeVar("Some", bound=Select[*tuple[Any, ...]])
 
 _LONGEST = 12_000  # signs of a filter; SQLite refuses patterns over 50 000 bytes
 
@@ -30,6 +34,7 @@ class Listing:
         cursor: str | None = None,
         status: Status | None = None,
         q: str | None = None,
+        tags: Sequence[str] = (),
     ) -> Page:
         """Return one page, newest first.
 
@@ -43,6 +48,8 @@ class Listing:
             Only shapes in this state.
         q : str, optional
             Only shapes whose name or metadata values contain this text; capitals do not matter.
+        tags : sequence of str
+            Only shapes that have all of these tags; capitals do not matter.
 
         Raises
         ------
@@ -50,10 +57,12 @@ class Listing:
             The cursor is not one of ours.
         """
         query = select(ShapeRow).order_by(ShapeRow.sequence.desc()).limit(limit + 1)
+        if status is not None:
+            query = query.where(ShapeRow.status == status)
         if cursor is not None:
             query = query.where(ShapeRow.sequence < _sequence_of(cursor))
         with reading(self._engine) as session:
-            rows = session.scalars(_filtered(query, status, q)).all()
+            rows = session.scalars(_filtered(query, q, tags)).all()
             items = tuple(shape_of(row) for row in rows[:limit])
             more = len(rows) > limit
             return Page(items=items, next_cursor=_cursor_of(rows[limit - 1].sequence) if more else None)
@@ -64,10 +73,11 @@ class Listing:
         with reading(self._engine) as session:
             return tuple(session.scalars(ready.order_by(ShapeRow.id).limit(limit)))
 
-    def counts(self) -> Mapping[Status, int]:
-        """Return how many shapes are in each state."""
+    def counts(self, q: str | None = None, tags: Sequence[str] = ()) -> Mapping[Status, int]:
+        """Return how many shapes are in each state, of all or of those that `list` would show."""
+        query = select(ShapeRow.status, func.count()).group_by(ShapeRow.status)
         with reading(self._engine) as session:
-            rows = session.execute(select(ShapeRow.status, func.count()).group_by(ShapeRow.status))
+            rows = session.execute(_filtered(query, q, tags))
             found = {Status(status): count for status, count in rows}
         return {status: found.get(status, 0) for status in Status}
 
@@ -77,9 +87,8 @@ class Listing:
             return set(session.scalars(select(FileRow.key)))
 
 
-def _filtered(query: Select[ShapeRow], status: Status | None, q: str | None) -> Select[ShapeRow]:
-    if status is not None:
-        query = query.where(ShapeRow.status == status)
+def _filtered(query: Some, q: str | None, tags: Sequence[str]) -> Some:
+    query = query.where(*having(tags))
     if not q:
         return query
     text = folded(q)

@@ -3,8 +3,17 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from enum import StrEnum
 
 from index.errors import BadWeights, UnknownMethod
+
+
+class LooksAt(StrEnum):
+    """What a block tells of a shape."""
+
+    GEOMETRY = "geometry"
+    COLOUR = "colour"
+    BOTH = "both"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -14,6 +23,11 @@ class Block:
     name: str  # of the descriptor block
     weight: float  # w > 0
     power: int  # p, 1 or 2; the same for all blocks of a method
+
+    @property
+    def looks_at(self) -> LooksAt:
+        """What it tells of a shape."""
+        return _LOOKS_AT[self.name]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,6 +48,19 @@ class Method:
 DEFAULT_METHOD = "fused"
 MOST = 1e9  # of a user's own weight: beyond it sums lose the other blocks
 _PAPER = "Kovnatsky et al. 2011"
+
+
+_LOOKS_AT = {
+    "log-hks": LooksAt.GEOMETRY,
+    "hks-0": LooksAt.GEOMETRY,
+    "diffusion-geometric": LooksAt.GEOMETRY,
+    "colour-histogram": LooksAt.COLOUR,
+    "colour-curves": LooksAt.COLOUR,  # at places of the surface, but geometry alone makes none differ
+    "meshhog": LooksAt.COLOUR,
+    "hks-0.05": LooksAt.BOTH,
+    "hks-0.1": LooksAt.BOTH,
+    "diffusion-joint": LooksAt.BOTH,
+}
 
 
 def _table(*methods: Method) -> Mapping[str, Method]:

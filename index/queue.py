@@ -71,7 +71,7 @@ class Queue:
             lock_state(session)
             row = held_row(session, job)
             row.attempts -= 1
-            row.lease_until = row.worker = row.token = None
+            row.lease_until = row.claimed_at = row.worker = row.token = None
             _set_status(session, row.shape_id, Status.QUEUED)
 
     def depth(self) -> int:
@@ -102,7 +102,13 @@ def _claim_one(session: Session, moment: datetime, worker: str, lease_until: dat
     statement = (
         update(JobRow)
         .where(JobRow.id == oldest)
-        .values(worker=worker, token=uuid4().hex, lease_until=lease_until, attempts=JobRow.attempts + 1)
+        .values(
+            worker=worker,
+            token=uuid4().hex,
+            claimed_at=moment,
+            lease_until=lease_until,
+            attempts=JobRow.attempts + 1,
+        )
         .returning(JobRow)
         .execution_options(synchronize_session=False)
     )

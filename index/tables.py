@@ -103,6 +103,16 @@ class FileRow(Base):
     sha256: Mapped[str]
 
 
+class TagRow(Base):
+    """A tag of a shape, taken from its metadata, so that shapes are found by it."""
+
+    __tablename__ = "tags"
+
+    shape_id: Mapped[str] = mapped_column(ForeignKey("shapes.id", ondelete="CASCADE"), primary_key=True)
+    folded: Mapped[str] = mapped_column(primary_key=True, index=True)  # what is compared
+    shown: Mapped[str]  # as it was written
+
+
 class JobRow(Base):
     """Work to be done on a shape; the row is gone when it is done."""
 
@@ -115,6 +125,20 @@ class JobRow(Base):
     lease_until: Mapped[datetime | None]  # None while nobody has it
     worker: Mapped[str | None]
     token: Mapped[str | None]  # random for each claim: tells the holder from an earlier one
+    queued_at: Mapped[datetime | None]  # None where an earlier version queued it
+    claimed_at: Mapped[datetime | None]  # None while nobody has it
+
+
+class FinishedJobRow(Base):
+    """A job that ended lately: how fast the workers are. It is no part of what a library keeps."""
+
+    __tablename__ = "finished_jobs"
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    finished_at: Mapped[datetime] = mapped_column(index=True)
+    seconds: Mapped[float]  # since it was claimed
+    outcome: Mapped[str]  # `ready`, or the code of the failure
+    worker: Mapped[str]
 
 
 class VocabularyRow(Base):

@@ -61,11 +61,15 @@ def test_a_library_of_the_first_version_gets_its_tables_and_keeps_what_it_holds(
     with sqlite3.connect(tmp_path / "catalogue.db") as earlier:
         earlier.execute("DROP TABLE api_keys")
         earlier.execute("DROP TABLE dismissals")
+        earlier.execute("DROP TABLE tags")
+        earlier.execute("DROP TABLE finished_jobs")
+        earlier.execute("ALTER TABLE jobs DROP COLUMN queued_at")
+        earlier.execute("ALTER TABLE jobs DROP COLUMN claimed_at")
         earlier.execute("UPDATE alembic_version SET version_num = '0001'")
     earlier.close()
     assert migrate_in(tmp_path) == library
     engine = make_engine(url_in(tmp_path))
-    assert {"api_keys", "dismissals"} <= set(inspect(engine).get_table_names())
+    assert {"api_keys", "dismissals", "tags"} <= set(inspect(engine).get_table_names())
     engine.dispose()
 
 

@@ -42,6 +42,9 @@ CALLS = [
     ("GET", "/v1/duplicates/dismissals"),
     ("PUT", "/v1/duplicates/dismissals/x/y"),
     ("DELETE", "/v1/duplicates/dismissals/x/y"),
+    ("GET", "/v1/tags"),
+    ("GET", "/v1/counts"),
+    ("GET", "/v1/queue"),
     ("GET", "/v1/events"),
     ("GET", "/metrics"),
 ]

@@ -6,7 +6,7 @@ from typing import Any, Self
 from pydantic import BaseModel, ConfigDict, Field
 from pydantic.config import JsonDict
 
-from index.methods import Method
+from index.methods import LooksAt, Method
 from index.shapes import Page, Shape, Status, StoredFile
 from service.http.reasons import FAILURES
 from service.http.relation_schemas import RelationModel
@@ -186,6 +186,7 @@ class BlockModel(BaseModel):
     name: str
     weight: float
     power: int = Field(description="the L1 distance of the block is raised to it")
+    looks_at: LooksAt
 
 
 class MethodModel(BaseModel):

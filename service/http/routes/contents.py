@@ -1,9 +1,10 @@
 """What belongs to a shape: its files, its pictures, its numbers."""
 
-from pathlib import PurePosixPath
+from pathlib import Path, PurePosixPath
+from typing import Annotated
 
-from fastapi import APIRouter
-from starlette.responses import FileResponse
+from fastapi import APIRouter, Query
+from starlette.responses import FileResponse, Response
 
 from index.errors import FileMissing
 from service.descriptors import shape_numbers
@@ -13,8 +14,12 @@ from service.http.reasons import FILE, NUMBERS, ONE_SHAPE, READING
 from service.http.schemas import DescriptorsModel
 from service.library import Library
 from service.storage import PREVIEW, THUMBNAIL, derived_key
+from worker.pictures.smaller import smaller
 
 router = APIRouter(tags=["contents"])
+
+WIDEST = 256  # pixels of a thumbnail as it is kept
+Width = Annotated[int, Query(ge=32, le=WIDEST, description="of the picture, in pixels")]
 
 PRIVATE = {"Cache-Control": "private, max-age=3600"}
 SANDBOX = {"Content-Security-Policy": "default-src 'none'; sandbox", "Cache-Control": "private, no-cache"}
@@ -47,9 +52,9 @@ def download(library: LibraryPart, shape_id: str, name: str) -> FileResponse:
     response_class=FileResponse,
     responses=binary("image/png", "the picture") | problems(*READING, *ONE_SHAPE, *FILE),
 )
-def thumbnail(library: LibraryPart, shape_id: str) -> FileResponse:
+def thumbnail(library: LibraryPart, shape_id: str, width: Width = WIDEST) -> Response:
     """Return a picture of a ready shape on a transparent background."""
-    return _derived(library, shape_id, THUMBNAIL, "image/png")
+    return picture(library, shape_id, width)
 
 
 @router.get(
@@ -80,6 +85,15 @@ def descriptors(library: LibraryPart, shape_id: str) -> DescriptorsModel:
         blocks={name: block.tolist() for name, block in numbers.blocks.items()},
         eigenvalues={weight: values.tolist() for weight, values in numbers.eigenvalues.items()},
     )
+
+
+def picture(library: Library, shape_id: str, width: int) -> Response:
+    """Return the thumbnail of a shape, made smaller where it is wider."""
+    whole = _derived(library, shape_id, THUMBNAIL, "image/png")
+    if width == WIDEST:
+        return whole
+    content = smaller(Path(whole.path).read_bytes(), width)
+    return Response(content, media_type="image/png", headers=PRIVATE)
 
 
 def _derived(library: Library, shape_id: str, name: str, media_type: str) -> FileResponse:

@@ -6,6 +6,7 @@ from typing import Annotated, Any
 import anyio
 from anyio import to_thread
 from fastapi import APIRouter, Query, Request, Response
+from pydantic import Field
 
 from index.errors import BadCursor, NotFailed
 from index.shapes import Shape, Status
@@ -29,6 +30,11 @@ Wait = Annotated[float, Query(ge=0, le=LONGEST_WAIT, description="seconds to wai
 Limit = Annotated[int, Query(ge=1, le=500, description="items of a page at most")]
 Cursor = Annotated[str | None, Query(description="`next_cursor` of the page before")]
 Words = Annotated[str | None, Query(max_length=500, description="words in the name or in metadata's values")]
+
+TagNames = Annotated[
+    list[Annotated[str, Field(max_length=500)]] | None,
+    Query(max_length=20, description="a tag that the shapes have; may be given more than once"),
+]
 
 ADDED: dict[int | str, dict[str, Any]] = {
     200: {"model": ShapeModel, "description": "the same content is known"},
@@ -85,9 +91,11 @@ def list_shapes(
     cursor: Cursor = None,
     status: Status | None = None,
     q: Words = None,
+    tag: TagNames = None,
 ) -> ShapesModel:
     """Return a page of shapes, newest first."""
-    return ShapesModel.of(library.catalogue.list(limit=limit, cursor=cursor, status=status, q=q))
+    page = library.catalogue.list(limit=limit, cursor=cursor, status=status, q=q, tags=tag or ())
+    return ShapesModel.of(page)
 
 
 @router.get(
