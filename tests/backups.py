@@ -112,7 +112,7 @@ def rows_of(library: Library) -> Rows:
 def released(rows: Rows) -> Rows:
     """Return the rows as an export has them: whoever held a job holds it no longer."""
     for job in rows["jobs"]:
-        job.update(attempts=0, lease_until=None, worker=None, token=None)
+        job.update(attempts=0, lease_until=None, claimed_at=None, worker=None, token=None)
     for shape in rows["shapes"]:
         if shape["status"] == "processing":
             shape["status"] = "queued"

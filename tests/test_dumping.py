@@ -58,7 +58,7 @@ def test_a_job_is_free_and_its_shape_waits(tmp_path: Path) -> None:
     with one_moment(opened.engine) as moment:
         tables = dumped(moment)
     (job,) = tables["jobs"]
-    free = {"attempts": 0, "lease_until": None, "worker": None, "token": None}
+    free = {"attempts": 0, "lease_until": None, "claimed_at": None, "worker": None, "token": None}
     assert job == {"id": job["id"], "shape_id": "three", **free}
     assert {row["id"]: row["status"] for row in tables["shapes"]}["three"] == "queued"
     opened.engine.dispose()

@@ -71,7 +71,7 @@ class QueueModel(BaseModel):
     finished: FinishedModel
     median_seconds: float | None = Field(description="that a job took in the last hour; null without any")
     expected_seconds: float | None = Field(
-        description="until the queue is empty, at the speed of the last five minutes; null where that is unknown"
+        description="until the queue is empty, at the speed of the last five minutes; null where unknown"
     )
 
     @classmethod
