@@ -110,6 +110,13 @@ class FileStore:
             raise ValueError(f"not a file key: {key!r}")
         return self._root / key
 
+    def changed(self, key: str) -> float:
+        """Return when a file was written, in seconds since 1970; this moment where it is gone."""
+        try:
+            return self.path(key).stat().st_mtime
+        except FileNotFoundError:  # removed beside us
+            return time.time()
+
     def delete(self, key: str) -> None:
         """Remove one file and the folders that this empties; absent is fine."""
         path = self.path(key)

@@ -18,7 +18,18 @@ from service.http.headers import AddSafeHeaders
 from service.http.metrics import CountRequests, Metrics
 from service.http.openapi import DESCRIPTION, GUARDED, SUMMARY, describe_interface
 from service.http.plain_errors import ReplacePlainErrors
-from service.http.routes import contents, duplicates, events, health, methods, overview, page, search, shapes
+from service.http.routes import (
+    contents,
+    duplicates,
+    events,
+    health,
+    methods,
+    overview,
+    page,
+    queries,
+    search,
+    shapes,
+)
 from service.http.slow_bodies import LimitBodyTime
 from service.http.turnstile import Turnstile
 from service.http.unexpected import AnswerUnexpected
@@ -95,7 +106,9 @@ def child_limits(settings: Settings) -> ChildLimits:
 
 def _add_routes(app: FastAPI) -> None:
     guarded = APIRouter(prefix="/v1", dependencies=[Depends(guard)], responses=GUARDED)
-    for part in (search, shapes, contents, methods, overview, duplicates, events):  # the most asked for first
+    at_a_glance = methods, overview
+    # the most asked for first
+    for part in (search, shapes, contents, queries, *at_a_glance, duplicates, events):
         guarded.include_router(part.router)
     app.include_router(guarded)
     app.include_router(health.router)

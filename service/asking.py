@@ -85,8 +85,22 @@ def rank_description(library: Library, description: Description, question: Quest
         require_same(description.fingerprint, vocabulary)
         return vocabulary.id, {**description.blocks, **quantise(description.signatures, vocabulary)}
 
+    return rank_query(library, query, description.signatures[QUERY_LADDER], question)
+
+
+def rank_query(library: Library, query: AsQuery, ladder: SingleArray, question: Question) -> Found:
+    """Return the shapes that lie nearest to blocks that belong to no stored shape.
+
+    Parameters
+    ----------
+    query : callable
+        Returns a vocabulary's id and all blocks, in its words; asked again where another becomes active.
+    ladder : (p, j) array
+        The signature by which the query is registered.
+    """
+
     def landmarks(blocks: Blocks) -> QueryLandmarks:
-        return QueryLandmarks(packed=blocks[LANDMARKS], ladder=description.signatures[QUERY_LADDER])
+        return QueryLandmarks(packed=blocks[LANDMARKS], ladder=ladder)
 
     return _rank(library, question, query, landmarks)
 

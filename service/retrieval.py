@@ -5,17 +5,20 @@ import uuid
 from collections.abc import Iterable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from index.shapes import Shape, Status, StoredFile
-from service.asking import Question, check_question, rank_description, rank_near
+from service.asking import Question, check_question, rank_description, rank_near, rank_query
 from service.intake.submissions import Submission
 from service.jobs.describing import Describe, describe_files
 from service.library import Library
 from service.refining import Ranked
 from service.relations.relating import relate, relate_stored
 from service.relations.relation import Related
-from service.relations.sides import described_side
+from service.relations.sides import described_side, remembered_side
+from service.remembered_words import in_active_words
+from service.remembering import recall, remember
 from service.storage import upload_key
 from worker.describe import MeshFacts
 from worker.reading.upload import inspect_upload
@@ -32,13 +35,22 @@ class Hit:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Asked:
+    """A mesh that is no shape of the library."""
+
+    name: str  # for people
+    facts: MeshFacts
+    id: str | None = None  # under which it is remembered for a while; None where it is not
+
+
+@dataclass(frozen=True, kw_only=True)
 class Answer:
     """A ranked answer."""
 
     method: str
     milliseconds: float  # from the question to here
     hits: tuple[Hit, ...]  # nearest first
-    query: MeshFacts | None = None  # of a mesh that is not kept
+    query: Asked | None = None  # a mesh that is no shape of the library
 
 
 def accept_upload(library: Library, submission: Submission) -> tuple[Shape, bool]:
@@ -103,6 +115,8 @@ def search_upload(
     submission: Submission,
     question: Question,
     describe: Describe = describe_files,
+    *,
+    remembered: bool = False,
 ) -> Answer:
     """Rank the shapes by their distance to a mesh that is not kept.
 
@@ -110,6 +124,8 @@ def search_upload(
     ----------
     executor : Executor
         Where ``describe`` runs.
+    remembered : bool
+        Whether it can be asked about again for a while; see `service.remembering`.
 
     Raises
     ------
@@ -125,7 +141,30 @@ def search_upload(
     query = described_side(described, found.blocks, ((file.name, file.sha256) for file in submission.files))
     asked = found.registered if question.relations else ()
     related = relate(library, query, asked, found.vocabulary_id)
-    return _answer(library, question, found.ranked, related, start, described.facts)
+    query_id = (
+        remember(library, submission, described, found.blocks, found.vocabulary_id) if remembered else None
+    )
+    asked_about = Asked(id=query_id, name=submission.display_name(), facts=described.facts)
+    return _answer(library, question, found.ranked, related, start, asked_about)
+
+
+def find_remembered(library: Library, query_id: str, question: Question) -> Answer:
+    """Rank the shapes by their distance to a mesh that was searched for before.
+
+    Raises
+    ------
+    QueryNotFound, UnknownMethod, BadWeights
+    """
+    start = time.perf_counter()
+    check_question(question)
+    query = recall(library, query_id)
+    found = rank_query(library, partial(in_active_words, library, query), query.ladder, question)
+    related: Mapping[str, Related] = {}
+    if question.relations:
+        side = remembered_side(library, query, found.blocks)
+        related = relate(library, side, found.registered, found.vocabulary_id)
+    asked = Asked(id=query.id, name=query.name, facts=query.facts)
+    return _answer(library, question, found.ranked, related, start, asked)
 
 
 def change_shape(
@@ -165,7 +204,7 @@ def _answer(
     found: Ranked,
     related: Mapping[str, Related],
     start: float,
-    query: MeshFacts | None = None,
+    query: Asked | None = None,
 ) -> Answer:
     """Join distances, relations and shapes; one that was removed in this moment drops out."""
     shapes = library.catalogue.get_many([shape_id for shape_id, _ in found])

@@ -27,10 +27,15 @@ def derived_key(shape_id: str, name: str) -> str:
 
 def save_signatures(files: FileStore, shape_id: str, signatures: Mapping[str, SingleArray]) -> None:
     """Keep the signatures of a shape, in single precision, for every vocabulary to come."""
+    files.put(derived_key(shape_id, SIGNATURES), saved_arrays(signatures))
+
+
+def saved_arrays(arrays: Mapping[str, SingleArray]) -> bytes:
+    """Return arrays by name as the bytes of an ``.npz``, in single precision."""
     buffer = io.BytesIO()
-    single = {name: np.asarray(values, dtype=np.float32) for name, values in signatures.items()}
+    single = {name: np.asarray(values, dtype=np.float32) for name, values in arrays.items()}
     np.savez(buffer, allow_pickle=False, **single)
-    files.put(derived_key(shape_id, SIGNATURES), buffer.getvalue())
+    return buffer.getvalue()
 
 
 def load_signatures(files: FileStore, shape_id: str) -> dict[str, SingleArray]:

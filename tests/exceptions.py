@@ -16,12 +16,22 @@ from index.errors import (
     LeaseLost,
     LibraryNotEmpty,
     NewerFormat,
+    UnknownDatabase,
     UnknownVocabulary,
 )
 
 EXPORTS = {ExportRefused, DamagedExport, NewerFormat, LibraryNotEmpty}
 # Never reach a request: they belong to workers, to indexes that are built anew, and to the command line.
-INSIDE = {CatalogueError, LeaseLost, DamagedIndex, UnknownVocabulary, KeyNotFound, BadKeyName, *EXPORTS}
+INSIDE = {
+    CatalogueError,
+    LeaseLost,
+    DamagedIndex,
+    UnknownVocabulary,
+    KeyNotFound,
+    BadKeyName,
+    UnknownDatabase,
+    *EXPORTS,
+}
 
 
 def exceptions_with_codes() -> set[type[Exception]]:

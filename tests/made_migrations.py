@@ -4,6 +4,7 @@ import shutil
 from pathlib import Path
 
 import pytest
+from sqlalchemy import Engine, text
 
 from index import migrating
 
@@ -52,6 +53,16 @@ def pretend_older(patch: pytest.MonkeyPatch, folder: Path, steps: int = 1) -> No
     versions = _copied(patch, folder)
     for path in _steps(versions)[steps:]:
         path.unlink()
+
+
+def take_back_steps(engine: Engine) -> None:
+    """Make a database what the first step made it."""
+    with engine.begin() as connection:
+        for table in ("api_keys", "dismissals", "tags", "finished_jobs"):
+            connection.execute(text(f"DROP TABLE {table}"))
+        for column in ("queued_at", "claimed_at"):
+            connection.execute(text(f"ALTER TABLE jobs DROP COLUMN {column}"))
+        connection.execute(text("UPDATE alembic_version SET version_num = '0001'"))
 
 
 def pretend_newer(patch: pytest.MonkeyPatch, folder: Path, body: str = INITIALS) -> None:

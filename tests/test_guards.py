@@ -45,6 +45,10 @@ CALLS = [
     ("GET", "/v1/tags"),
     ("GET", "/v1/counts"),
     ("GET", "/v1/queue"),
+    ("GET", "/v1/queries/x"),
+    ("GET", "/v1/queries/x/similar"),
+    ("GET", "/v1/queries/x/thumbnail.png"),
+    ("GET", "/v1/queries/x/preview.glb"),
     ("GET", "/v1/events"),
     ("GET", "/metrics"),
 ]
@@ -80,7 +84,7 @@ def test_nothing_of_the_library_is_told_without_a_key(service: Serving, method: 
 
 
 def _example_of(path: str) -> str:
-    examples = {"{shape_id}": "x", "{name}": "a", "{one}": "x", "{other}": "y"}
+    examples = {"{shape_id}": "x", "{query_id}": "x", "{name}": "a", "{one}": "x", "{other}": "y"}
     for part, example in examples.items():
         path = path.replace(part, example)
     return path

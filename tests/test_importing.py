@@ -26,6 +26,7 @@ from tests.backups import (
     exported,
     fail,
     files_of,
+    fill,
     forged,
     opened,
     parts_of,
@@ -33,7 +34,7 @@ from tests.backups import (
     rows_of,
 )
 from tests.databases import only_on_sqlite
-from tests.made_migrations import pretend_newer, pretend_older
+from tests.made_migrations import pretend_newer, pretend_older, take_back_steps
 
 pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
 
@@ -83,14 +84,21 @@ def test_a_library_that_is_exported_again_gives_the_same_members(tmp_path: Path)
 def test_an_export_of_the_first_schema_is_brought_to_this_one(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    with opened(tmp_path / "from") as before:
+        fill(before)
+        add_queued(before, 99, tags=["Vase"])
+        rows, files, found = released(rows_of(before)), files_of(before), answers(before)
+        take_back_steps(before.engine)
+    archive = tmp_path / "library.tar"
     with monkeypatch.context() as patch:
         pretend_older(patch, tmp_path)
-        archive = exported(tmp_path)
         with opened(tmp_path / "from") as before:
-            rows, files, found = released(rows_of(before)), files_of(before), answers(before)
+            export_library(before, archive)
     with opened(tmp_path / "to") as after:
         import_library(after, archive)
-        assert rows_of(after) == {**rows, "dismissals": []}
+        jobs = [{**job, "queued_at": None} for job in rows["jobs"]]
+        assert rows_of(after) == {**rows, "dismissals": [], "jobs": jobs}
+        assert [tag["shown"] for tag in rows["tags"]] == ["Vase"]
         assert files_of(after) == files
         assert answers(after) == found
 

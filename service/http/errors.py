@@ -31,6 +31,7 @@ from service.jobs.child import ChildError
 from service.jobs.pool import ChildDied, PoolStopped
 from service.jobs.recording import GAVE_UP, UNEXPECTED, UNEXPECTED_DETAIL
 from service.key_ring import KeysUnreadable, Unauthorised
+from service.remembering import QueryNotFound
 from service.vocabularies import NoVocabulary
 from worker.errors import MeshError
 
@@ -55,6 +56,7 @@ TABLE: dict[type[Exception], tuple[HTTPStatus, str]] = {
     ForeignHost: (HTTPStatus.FORBIDDEN, "The service is open to this machine alone"),
     CrossOrigin: (HTTPStatus.FORBIDDEN, "Another site's page may not do this"),
     kept.ShapeNotFound: (HTTPStatus.NOT_FOUND, "There is no such shape"),
+    QueryNotFound: (HTTPStatus.NOT_FOUND, "There is no such query"),
     kept.DismissalNotFound: (HTTPStatus.NOT_FOUND, "There is no such dismissal"),
     kept.NotAPair: (HTTPStatus.UNPROCESSABLE_ENTITY, "These are no two shapes"),
     kept.FileMissing: (HTTPStatus.NOT_FOUND, "There is no such file"),

@@ -56,6 +56,7 @@ MEANINGS: dict[str, str] = {
     "`faience learn-vocabulary`.",
     "bad_vocabulary": "The library's vocabulary cannot be read, or not be learnt from its shapes. "
     "The operator learns one anew with `faience learn-vocabulary`.",
+    "query_not_found": "Queries are remembered for an hour. Send the mesh again with `remember=true`.",
     "not_a_pair": "Both ids are the same. A shape is no duplicate of itself: name two shapes.",
     "not_dismissed": "Nobody said that these two shapes are no duplicates: there is nothing to take back.",
     "not_failed": "Only a shape that failed can be tried again. This one did not: there is nothing to do.",

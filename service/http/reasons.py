@@ -27,6 +27,7 @@ from service.jobs.child import ChildError
 from service.jobs.pool import ChildDied, PoolStopped
 from service.jobs.recording import GAVE_UP, UNEXPECTED
 from service.key_ring import KeysUnreadable, Unauthorised
+from service.remembering import QueryNotFound
 from service.vocabularies import NoVocabulary
 from worker.errors import Code, MeshError
 
@@ -38,6 +39,7 @@ CATALOGUE: tuple[Reason, ...] = (kept.CatalogueBusy, OperationalError)
 READING: tuple[Reason, ...] = (*KEYS, *CATALOGUE, RequestValidationError)
 CHANGING: tuple[Reason, ...] = (*READING, CrossOrigin, ReadOnlyKey, kept.StorageFull)
 ONE_SHAPE: tuple[Reason, ...] = (kept.ShapeNotFound,)
+ONE_QUERY: tuple[Reason, ...] = (QueryNotFound,)
 FILE: tuple[Reason, ...] = (kept.FileMissing, 416)
 NUMBERS: tuple[Reason, ...] = (
     kept.NotReady,

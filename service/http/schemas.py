@@ -10,7 +10,8 @@ from index.methods import LooksAt, Method
 from index.shapes import Page, Shape, Status, StoredFile
 from service.http.reasons import FAILURES
 from service.http.relation_schemas import RelationModel
-from service.retrieval import Answer, Hit
+from service.remembering import Remembered
+from service.retrieval import Answer, Asked, Hit
 from worker.describe import MeshFacts
 
 EXAMPLE_SHAPE: JsonDict = {
@@ -156,9 +157,30 @@ class ResultModel(BaseModel):
 
 
 class QueryModel(BaseModel):
-    """What the query was."""
+    """A mesh that is no shape of the library."""
 
+    id: str | None = Field(description="for `/v1/queries`; null unless it is remembered")
+    name: str
     mesh: MeshModel
+
+    @classmethod
+    def of(cls, asked: Asked) -> Self:
+        """Return a query as it leaves."""
+        return cls(id=asked.id, name=asked.name, mesh=MeshModel.of(asked.facts))
+
+
+class RememberedModel(BaseModel):
+    """A query that is remembered."""
+
+    id: str
+    name: str
+    mesh: MeshModel
+    expires_at: datetime
+
+    @classmethod
+    def of(cls, query: Remembered) -> Self:
+        """Return a remembered query as it leaves."""
+        return cls(id=query.id, name=query.name, mesh=MeshModel.of(query.facts), expires_at=query.expires_at)
 
 
 class AnswerModel(BaseModel):
@@ -176,7 +198,7 @@ class AnswerModel(BaseModel):
             method=answer.method,
             took_ms=round(answer.milliseconds, 3),
             results=[ResultModel.of(hit) for hit in answer.hits],
-            query=QueryModel(mesh=MeshModel.of(answer.query)) if answer.query else None,
+            query=QueryModel.of(answer.query) if answer.query else None,
         )
 
 

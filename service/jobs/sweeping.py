@@ -3,6 +3,7 @@
 import time
 
 from service.library import Library
+from service.remembering import LIFETIME, forget_old
 
 HOUR = 3600.0  # seconds
 BATCH = 500  # shapes in one question to the catalogue
@@ -20,9 +21,10 @@ def sweep(library: Library, older_than: float = HOUR) -> int:
         Age in seconds; younger ones may belong to an upload that is under way.
     """
     swept = library.files.sweep(older_than)
+    swept += forget_old(library.files, max(older_than, LIFETIME.total_seconds()))
     newest = time.time() - older_than  # moment
     for key in _unneeded(library):
-        if _changed(library, key) <= newest:
+        if library.files.changed(key) <= newest:
             library.files.delete(key)
             swept += 1
     return swept
@@ -46,10 +48,3 @@ def _known(library: Library, owners: set[str]) -> set[str]:
 
 def _owner(key: str) -> str:
     return key.split("/")[1]
-
-
-def _changed(library: Library, key: str) -> float:
-    try:
-        return library.files.path(key).stat().st_mtime
-    except FileNotFoundError:  # removed beside us
-        return time.time()

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cache, cached_property, partial
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from index.packing import rounded
 from index.shapes import Shape
 from service.library import Library
 from service.relations.postures import posture_of
+from service.remembering import Remembered, query_key
 from service.storage import PREVIEW, derived_key
 from worker.arrays import SingleArray
 from worker.describe import Description
@@ -63,6 +64,18 @@ def described_side(
     )
 
 
+def remembered_side(library: Library, query: Remembered, blocks: Mapping[str, SingleArray]) -> Side:
+    """Return the side of a remembered query; as `described_side`."""
+    glb = cache(partial(_kept, library, query_key(query.id, PREVIEW)))
+    return Side(
+        blocks={name: rounded(name, blocks[name]) for name in NAMES if name in blocks},
+        area=query.facts.area,
+        mesh_files=_meshes(query.files),
+        preview=glb,
+        posture=lambda: posture_of(found) if (found := glb()) is not None else None,
+    )
+
+
 def stored_sides(library: Library, shape_ids: Sequence[str], vocabulary_id: str) -> dict[str, Side]:
     """Return the sides of stored shapes by id; those that are not ready, or just removed, drop out."""
     blocks = library.catalogue.some_blocks(shape_ids, vocabulary_id, NAMES)
@@ -84,14 +97,14 @@ def _stored_side(library: Library, shape: Shape, blocks: Mapping[str, SingleArra
         blocks=blocks,
         area=float((shape.facts or {}).get("area", 0.0)),
         mesh_files=_meshes((file.name, file.sha256) for file in shape.files),
-        preview=partial(_preview, library, shape.id),
+        preview=partial(_kept, library, derived_key(shape.id, PREVIEW)),
         posture=partial(library.postures.of, library.files, shape.id, shape.revision),
     )
 
 
-def _preview(library: Library, shape_id: str) -> bytes | None:
+def _kept(library: Library, key: str) -> bytes | None:
     try:
-        return library.files.get(derived_key(shape_id, PREVIEW))
+        return library.files.get(key)
     except FileMissing:  # removed in this moment
         return None
 

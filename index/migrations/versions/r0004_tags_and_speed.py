@@ -42,7 +42,7 @@ def _create_finished_jobs() -> None:
         "finished_jobs",
         sa.Column("id", integer, nullable=False),
         sa.Column("finished_at", sa.DateTime(), nullable=False),
-        sa.Column("seconds", sa.Float(), nullable=False),
+        sa.Column("seconds", sa.Double(), nullable=False),
         sa.Column("outcome", sa.String(), nullable=False),
         sa.Column("worker", sa.String(), nullable=False),
         sa.PrimaryKeyConstraint("id", name="pk_finished_jobs"),

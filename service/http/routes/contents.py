@@ -54,7 +54,7 @@ def download(library: LibraryPart, shape_id: str, name: str) -> FileResponse:
 )
 def thumbnail(library: LibraryPart, shape_id: str, width: Width = WIDEST) -> Response:
     """Return a picture of a ready shape on a transparent background."""
-    return picture(library, shape_id, width)
+    return picture(_derived(library, shape_id, THUMBNAIL, "image/png"), width)
 
 
 @router.get(
@@ -87,13 +87,11 @@ def descriptors(library: LibraryPart, shape_id: str) -> DescriptorsModel:
     )
 
 
-def picture(library: Library, shape_id: str, width: int) -> Response:
-    """Return the thumbnail of a shape, made smaller where it is wider."""
-    whole = _derived(library, shape_id, THUMBNAIL, "image/png")
+def picture(file: FileResponse, width: int) -> Response:
+    """Return a thumbnail, made smaller where it is wider."""
     if width == WIDEST:
-        return whole
-    content = smaller(Path(whole.path).read_bytes(), width)
-    return Response(content, media_type="image/png", headers=PRIVATE)
+        return file
+    return Response(smaller(Path(file.path).read_bytes(), width), media_type="image/png", headers=PRIVATE)
 
 
 def _derived(library: Library, shape_id: str, name: str, media_type: str) -> FileResponse:

@@ -1,7 +1,9 @@
 """Ranked answers."""
 
+from typing import Annotated
+
 from anyio import to_thread
-from fastapi import APIRouter, Request
+from fastapi import APIRouter, Query, Request
 
 from index.errors import FileMissing, NotReady
 from service.asking import Question
@@ -14,6 +16,11 @@ from service.intake.uploads import receiving
 from service.retrieval import Answer, find_similar, search_upload
 
 router = APIRouter(tags=["search"])
+
+Remember = Annotated[
+    bool,
+    Query(description="keep what was described for an hour, for `/v1/queries`"),
+]
 
 
 @router.get(
@@ -38,13 +45,22 @@ def _similar(services: Services, shape_id: str, question: Question) -> AnswerMod
     responses=problems(*READING, *UPLOAD, *QUESTION, *DESCRIBING),
     openapi_extra=form_body(details=False),
 )
-async def search(request: Request, services: ServicesPart, question: QuestionPart) -> AnswerModel:
-    """Describe a mesh, rank the shapes by their distance to it, and forget it."""
+async def search(
+    request: Request, services: ServicesPart, question: QuestionPart, remember: Remember = False
+) -> AnswerModel:
+    """Describe a mesh, rank the shapes by their distance to it, and forget it, at once or after an hour."""
     async with receiving(request, services.library) as submission:
-        answer = await to_thread.run_sync(_search, services, submission, question)
+        answer = await to_thread.run_sync(_search, services, submission, question, remember)
     return AnswerModel.of(answer)
 
 
-def _search(services: Services, submission: Submission, question: Question) -> Answer:
+def _search(services: Services, submission: Submission, question: Question, remembered: bool) -> Answer:
     with services.turnstile.enter():
-        return search_upload(services.library, services.searches, submission, question, services.describe)
+        return search_upload(
+            services.library,
+            services.searches,
+            submission,
+            question,
+            services.describe,
+            remembered=remembered,
+        )
