@@ -118,7 +118,7 @@ def _links(table: Table) -> list[tuple[str, Place]]:
 def _released(table: Table, row: RowMapping) -> dict[str, Any]:
     values = dict(row)
     if table.name == JobRow.__tablename__:
-        values |= FREE_JOB
+        values |= {name: free for name, free in FREE_JOB.items() if name in values}
     if table.name == ShapeRow.__tablename__ and values["status"] == Status.PROCESSING:
         values["status"] = str(Status.QUEUED)
     return values
