@@ -46,8 +46,13 @@ def held_row(session: Session, job: Job) -> JobRow:
 
 def end_job(session: Session, job: Job, outcome: str) -> None:
     """Remove a job that is still its worker's, and note how long it took; LeaseLost otherwise."""
-    row, moment = held_row(session, job), now()
+    end_row(session, held_row(session, job), outcome, now())
+
+
+def end_row(session: Session, row: JobRow, outcome: str, moment: datetime) -> None:
+    """Remove a job and note how long its last claim took."""
     seconds = (moment - (row.claimed_at or moment)).total_seconds()
     session.delete(row)
-    session.add(FinishedJobRow(finished_at=moment, seconds=seconds, outcome=outcome, worker=job.worker))
+    noted = {"finished_at": moment, "seconds": seconds, "outcome": outcome, "worker": row.worker or ""}
+    session.add(FinishedJobRow(**noted))
     session.execute(delete(FinishedJobRow).where(FinishedJobRow.finished_at < moment - REMEMBERED))

@@ -9,7 +9,7 @@ from sqlalchemy.orm import Session
 
 from index.database import reading, writing
 from index.errors import LeaseLost
-from index.jobs import MAX_ATTEMPTS, Job, held_row
+from index.jobs import MAX_ATTEMPTS, Job, end_row, held_row
 from index.revisions import lock_state, now, touch
 from index.rows import shape_row
 from index.shapes import Status
@@ -122,7 +122,7 @@ def _give_up_exhausted(session: Session, moment: datetime) -> None:
         shape.status, shape.error_code = Status.FAILED, "gave_up"
         shape.error_detail = f"{row.attempts} attempts ended without a result"
         touch(session, shape)
-        session.delete(row)
+        end_row(session, row, "gave_up", moment)
 
 
 def _set_status(session: Session, shape_id: str, status: Status) -> None:

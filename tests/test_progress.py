@@ -2,12 +2,14 @@
 
 from collections.abc import Iterator
 from datetime import UTC, datetime, timedelta
+from functools import partial
 from pathlib import Path
 
 import pytest
 from sqlalchemy import delete, func, select, update
 
 from index.database import reading, writing
+from index.jobs import MAX_ATTEMPTS
 from index.queue import Queue
 from index.tables import FinishedJobRow, JobRow
 from tests.catalogues import Opened, add_queued, add_ready, open_catalogue
@@ -92,6 +94,17 @@ def test_every_job_that_ends_is_noted_with_its_outcome_and_time(opened: Opened) 
         assert [(row.outcome, row.worker) for row in rows] == [("ready", "test"), ("no_faces", "w")]
         assert all(0 <= row.seconds < 60 for row in rows)
     assert opened.catalogue.progress().last_minute == 2
+
+
+def test_a_job_that_is_given_up_has_ended_too(opened: Opened) -> None:
+    moments = (NOON + timedelta(seconds=61 * number) for number in range(MAX_ATTEMPTS + 1))
+    queue = Queue(opened.engine, clock=partial(next, moments))
+    add_queued(opened, "killer")
+    for _ in range(MAX_ATTEMPTS + 1):  # the last finds that enough was tried
+        queue.claim("w", 60)
+    with reading(opened.engine) as session:
+        rows = session.scalars(select(FinishedJobRow)).all()
+        assert [(row.outcome, row.worker, row.seconds) for row in rows] == [("gave_up", "w", 61)]
 
 
 def test_what_ended_long_ago_is_forgotten(opened: Opened) -> None:
