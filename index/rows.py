@@ -59,7 +59,12 @@ def describe_for_search(row: ShapeRow) -> None:
 
 def folded(text: str) -> str:
     """Return a text whose capitals do not matter, and that any database accepts."""
-    return text.casefold().encode("utf-8", "replace").decode().replace("\0", " ")
+    return storable(text.casefold())
+
+
+def storable(text: str) -> str:
+    """Return a text without the signs that a database refuses."""
+    return text.encode("utf-8", "replace").decode().replace("\0", " ")
 
 
 def _texts(value: Any) -> Iterator[str]:

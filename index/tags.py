@@ -10,7 +10,7 @@ from sqlalchemy.orm import Session
 
 from index.database import reading
 from index.errors import BadCursor
-from index.rows import folded
+from index.rows import folded, storable
 from index.tables import ShapeRow, TagRow
 
 FIELD = "tags"  # of metadata: a list of words, or one
@@ -73,7 +73,7 @@ def tags_of(metadata: Mapping[str, Any]) -> dict[str, str]:
     words = [given] if isinstance(given, str) else given if isinstance(given, list) else []
     known: dict[str, str] = {}
     for word in words:
-        shown = " ".join(word.split()) if isinstance(word, str) else ""
+        shown = " ".join(storable(word).split()) if isinstance(word, str) else ""
         if shown and len(shown) <= LONGEST:
             known.setdefault(folded(shown), shown)
     return dict(list(known.items())[:MOST])

@@ -1,16 +1,24 @@
 """Tags find shapes, whatever else their metadata holds."""
 
 from collections.abc import Iterator
+from datetime import datetime
 from pathlib import Path
 
 import pytest
+from sqlalchemy import MetaData, Table, insert, select
 
+from index.database import make_engine, reading
 from index.errors import BadCursor
+from index.migrating import migrate
 from index.shapes import Status
+from index.tables import TagRow
 from index.tags import LONGEST, MOST, tags_of
 from tests.catalogues import Opened, add_queued, open_catalogue
 
 pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+
+
+NOON = datetime(2026, 3, 1, 12)  # noqa: DTZ001 - databases hold UTC without saying so
 
 
 @pytest.fixture
@@ -42,6 +50,33 @@ def used(opened: Opened, q: str | None = None) -> list[tuple[str, int]]:
 )
 def test_tags_are_words_of_the_metadata(metadata: dict[str, object], expected: dict[str, str]) -> None:
     assert tags_of(metadata) == expected
+
+
+def test_signs_that_no_database_takes_are_replaced(opened: Opened) -> None:
+    add_queued(opened, "a", tags=["half \ud800", "nul\0l"])
+    assert used(opened) == [("half ?", 1), ("nul l", 1)]
+
+
+def test_the_step_that_fills_tags_takes_any_text(tmp_path: Path) -> None:
+    engine = make_engine(f"sqlite:///{tmp_path / 'earlier.db'}")
+    migrate(engine, "0003")
+    with engine.begin() as connection:
+        shapes = Table("shapes", MetaData(), autoload_with=connection)
+        wanted: dict[str, object] = {
+            "id": "a",
+            "name": "a",
+            "status": "ready",
+            "sha256": "x",
+            "searchable": "",
+        }
+        wanted |= {"created_at": NOON, "updated_at": NOON, "revision": 1, "sequence": 1}
+        tags = {"tags": ["half \ud800", "Vase"]}
+        connection.execute(insert(shapes), {**wanted, "allow_untextured": False, "metadata": tags})
+    migrate(engine)
+    with reading(engine) as session:
+        found = session.execute(select(TagRow.folded, TagRow.shown).order_by(TagRow.folded)).all()
+        assert [tuple(row) for row in found] == [("half ?", "half ?"), ("vase", "Vase")]
+    engine.dispose()
 
 
 def test_a_shape_has_so_many_tags_and_no_more() -> None:

@@ -56,8 +56,12 @@ def _tags_of(shape_id: str, metadata: Any) -> Iterator[dict[str, str]]:
     given = kept.get("tags") if isinstance(kept, dict) else None
     known: dict[str, str] = {}
     for tag in [given] if isinstance(given, str) else given if isinstance(given, list) else []:
-        shown = " ".join(tag.split()) if isinstance(tag, str) else ""
+        shown = " ".join(_storable(tag).split()) if isinstance(tag, str) else ""
         if shown and len(shown) <= LONGEST:
             known.setdefault(shown.casefold(), shown)
     for folded, shown in list(known.items())[:MOST]:
         yield {"shape_id": shape_id, "folded": folded, "shown": shown}
+
+
+def _storable(text: str) -> str:
+    return text.encode("utf-8", "replace").decode().replace("\0", " ")
