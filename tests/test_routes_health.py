@@ -1,10 +1,15 @@
 """Health and metrics tell the truth."""
 
+from datetime import timedelta
 from pathlib import Path
 
 import pytest
+from sqlalchemy import update
 from sqlalchemy.exc import OperationalError
 
+from index.database import writing
+from index.revisions import now
+from index.tables import JobRow
 from tests.fakes import coloured_triangle
 from tests.problems import problem
 from tests.serving import serving, settings_for
@@ -43,5 +48,16 @@ def test_metrics_count_requests_by_route_and_jobs_by_outcome(tmp_path: Path) -> 
         'faience_jobs_total{outcome="ready"} 1.0',
         'faience_shapes{status="ready"} 1.0',
         "faience_queue_depth 0.0",
+        "faience_queue_age_seconds 0.0",
     ):
         assert line in lines
+
+
+def test_metrics_tell_how_long_the_oldest_job_waits(tmp_path: Path) -> None:
+    with serving(settings_for(tmp_path, workers=0)) as running:
+        running.add({"a.ply": coloured_triangle()}, wait=0)
+        with writing(running.library.engine) as session:
+            session.execute(update(JobRow).values(queued_at=now() - timedelta(seconds=100)))
+        lines = running.client.get("/metrics").text.splitlines()
+    (age,) = (line.split()[1] for line in lines if line.startswith("faience_queue_age_seconds "))
+    assert 100 <= float(age) < 200

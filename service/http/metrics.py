@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Iterator
+from datetime import UTC, datetime
 
 from prometheus_client import CollectorRegistry, Counter, Histogram, generate_latest
 from prometheus_client.core import GaugeMetricFamily
@@ -51,8 +52,13 @@ class _LibraryCollector(Collector):
             shapes.add_metric((status.value,), counts.get(status, 0))
         yield shapes
         yield GaugeMetricFamily("faience_queue_depth", "Jobs not finished", value=self._library.queue.depth())
+        yield GaugeMetricFamily("faience_queue_age_seconds", "Wait of the oldest job", value=self._age())
         revision = self._library.catalogue.revision()
         yield GaugeMetricFamily("faience_revision", "Changes of the catalogue so far", value=revision)
+
+    def _age(self) -> float:
+        oldest = self._library.catalogue.progress().oldest_queued_at
+        return 0.0 if oldest is None else max((datetime.now(UTC) - oldest).total_seconds(), 0.0)
 
     def describe(self) -> Iterator[GaugeMetricFamily]:
         return iter(())  # asked at registration: nothing is read then
