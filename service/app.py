@@ -29,6 +29,7 @@ from service.http.routes import (
     queries,
     search,
     shapes,
+    why,
 )
 from service.http.slow_bodies import LimitBodyTime
 from service.http.turnstile import Turnstile
@@ -108,7 +109,7 @@ def _add_routes(app: FastAPI) -> None:
     guarded = APIRouter(prefix="/v1", dependencies=[Depends(guard)], responses=GUARDED)
     at_a_glance = methods, overview
     # the most asked for first
-    for part in (search, shapes, contents, queries, *at_a_glance, duplicates, events):
+    for part in (search, shapes, contents, queries, *at_a_glance, duplicates, why, events):
         guarded.include_router(part.router)
     app.include_router(guarded)
     app.include_router(health.router)

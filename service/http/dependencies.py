@@ -63,18 +63,22 @@ async def guard(
     request.state.holder = holder
 
 
+MethodName = Annotated[
+    str, Query(description="a name from /v1/methods", json_schema_extra={"enum": list(METHODS)})
+]
+Weights = Annotated[
+    str | None,
+    Query(
+        description="own weights, as `block:number,…` or as a JSON object; blocks left out keep theirs",
+        examples=["log-hks:1,colour-histogram:0.5"],
+    ),
+]
+
+
 async def question(
-    method: Annotated[
-        str, Query(description="a name from /v1/methods", json_schema_extra={"enum": list(METHODS)})
-    ] = DEFAULT_METHOD,
+    method: MethodName = DEFAULT_METHOD,
     limit: Annotated[int, Query(ge=1, le=1000, description="results at most")] = 10,
-    weights: Annotated[
-        str | None,
-        Query(
-            description="own weights, as `block:number,…` or as a JSON object; blocks left out keep theirs",
-            examples=["log-hks:1,colour-histogram:0.5"],
-        ),
-    ] = None,
+    weights: Weights = None,
     relations: Annotated[
         bool,
         Query(description="whether to tell what each result is to the query; milliseconds more for each"),

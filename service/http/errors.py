@@ -33,6 +33,7 @@ from service.jobs.recording import GAVE_UP, UNEXPECTED, UNEXPECTED_DETAIL
 from service.key_ring import KeysUnreadable, Unauthorised
 from service.remembering import QueryNotFound
 from service.vocabularies import NoVocabulary
+from service.why.errors import NotExplained
 from worker.errors import MeshError
 
 log = logging.getLogger(__name__)
@@ -65,6 +66,7 @@ TABLE: dict[type[Exception], tuple[HTTPStatus, str]] = {
     kept.BadCursor: (HTTPStatus.UNPROCESSABLE_ENTITY, "The cursor is refused"),
     kept.UnknownMethod: (HTTPStatus.UNPROCESSABLE_ENTITY, "There is no such method"),
     kept.BadWeights: (HTTPStatus.UNPROCESSABLE_ENTITY, "The weights are refused"),
+    NotExplained: (HTTPStatus.UNPROCESSABLE_ENTITY, "This cannot be explained"),
     kept.BadBlock: (HTTPStatus.CONFLICT, "The shape's numbers do not fit"),
     kept.FingerprintMismatch: (HTTPStatus.CONFLICT, "The numbers belong to other parameters"),
     kept.VocabularyChanged: (HTTPStatus.SERVICE_UNAVAILABLE, "The vocabulary is changing"),

@@ -48,6 +48,8 @@ MEANINGS: dict[str, str] = {
     "bad_weights": "The weights name a block that the method lacks, or are no numbers of use. "
     "`/v1/methods` lists the blocks.",
     "unknown_method": "No method has this name. `/v1/methods` lists them.",
+    "not_explained": "The method compares what belongs to no one place on a surface, or the shape is kept "
+    "too coarsely, so nothing can be coloured. Choose another method.",
     "not_ready": "The shape is not described yet, or failed. Wait until its status is `ready`.",
     "bad_block": "The shape's numbers do not fit this version. Index its files anew.",
     "fingerprint_mismatch": "The shape was described with other parameters than this version's. "

@@ -98,11 +98,17 @@ def _problem(status: int, codes: list[str]) -> dict[str, Any]:
 GUARDED = problems(*KEYS)  # of every call that asks for a key
 
 
+def whole_binary(media_type: str, description: str) -> dict[int | str, dict[str, Any]]:
+    """Return the description of an answer that is a file, made for this request."""
+    content = {"schema": {"type": "string", "format": "binary"}}
+    return {200: {"description": description, "content": {media_type: content}}}
+
+
 def binary(media_type: str, description: str) -> dict[int | str, dict[str, Any]]:
-    """Return the description of an answer that is a file."""
+    """Return the description of an answer that is a file, of which a part may be asked for."""
     content = {"schema": {"type": "string", "format": "binary"}}
     return {
-        200: {"description": description, "content": {media_type: content}},
+        **whole_binary(media_type, description),
         206: {
             "description": f"{description}: the part that `Range` asks for",
             "content": {media_type: content, "multipart/byteranges": content},

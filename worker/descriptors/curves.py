@@ -46,11 +46,17 @@ def whiten_curves(curves: FloatArray) -> FloatArray:
     (3 t b,) array
         Mean 0 and deviation 1 in L; in a and b together, mean 0 each and deviation 1.
     """
-    centred = curves - curves.mean(axis=(0, 1))
+    mean, spread = light_of(curves)
+    return np.asarray(((curves - mean) / spread).ravel())
+
+
+def light_of(curves: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the mean colour (3,) that whitening takes off curves (t, b, 3), and by what it divides (3,)."""
+    mean = curves.mean(axis=(0, 1))
+    centred = curves - mean
     lightness = np.sqrt(np.mean(centred[..., 0] ** 2))
     chroma = np.sqrt(np.mean(centred[..., 1:] ** 2))
-    spread = np.array([lightness, chroma, chroma])
-    return np.asarray((centred / np.maximum(spread, FLOOR)).ravel())
+    return mean, np.maximum(np.array([lightness, chroma, chroma]), FLOOR)
 
 
 def _means_between(edges: FloatArray, lab: FloatArray, areas: FloatArray) -> FloatArray:

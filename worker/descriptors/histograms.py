@@ -1,5 +1,6 @@
 """Histograms of a surface's colours in CIE Lab: fine bins that are smoothed, then joined into fewer."""
 
+from collections.abc import Iterator
 from functools import cache
 
 import numpy as np
@@ -14,8 +15,10 @@ REACH = 2  # bins to which smoothing spreads a colour
 CUBE = 33  # sRGB values along each side by which the gamut is found
 
 
-def lab_histogram(lab: FloatArray, n_bins: int, smoothing: float) -> FloatArray:
-    """Return the smoothed histogram of equal-area colour samples.
+def lab_histogram(
+    lab: FloatArray, n_bins: int, smoothing: float, areas: FloatArray | None = None
+) -> FloatArray:
+    """Return the smoothed histogram of colour samples.
 
     A sample is shared linearly among the eight bins around it, so that no colour sits on an edge (greys have
     a = b = 0); then the counts are smoothed. Only bins that sRGB can reach are kept.
@@ -28,14 +31,15 @@ def lab_histogram(lab: FloatArray, n_bins: int, smoothing: float) -> FloatArray:
         Along each axis.
     smoothing : float
         σ of the Gaussian, in bins.
+    areas : (k,) array, optional
+        That the samples stand for; all the same where none are given.
 
     Returns
     -------
     (b,) array
         Sums to 1; the bins inside the gamut, L slowest and b fastest.
     """
-    smooth = gaussian_filter(_counts(lab, n_bins), smoothing, mode="reflect", radius=REACH)
-    inside = smooth[_gamut(n_bins)]
+    inside = _smoothed(_counts(lab, n_bins, areas), smoothing)[_gamut(n_bins)]
     return np.asarray(inside / inside.sum())
 
 
@@ -65,18 +69,62 @@ def join_bins(
     return np.asarray(np.bincount(_cells(n_bins, lightness, chroma), histogram))
 
 
-def _counts(lab: FloatArray, n_bins: int) -> FloatArray:
+def look_up_cells(
+    values: FloatArray,
+    lab: FloatArray,
+    n_bins: int,
+    smoothing: float,
+    lightness: tuple[int, ...],
+    chroma: tuple[int, ...],
+) -> FloatArray:
+    """Return for each colour the mean of the cells' values, each by the colour's share in it.
+
+    The transpose of what `lab_histogram` and `join_bins` do to one sample before they are divided by the sum:
+    no colour's 469 shares are ever written down.
+
+    Parameters
+    ----------
+    values : (c,) array
+        One a cell.
+    lab : (k, 3) array
+        CIE Lab.
+    n_bins, smoothing, lightness, chroma
+        As there.
+
+    Returns
+    -------
+    (k,) array
+    """
+    field = np.zeros((n_bins,) * 3)
+    field[_gamut(n_bins)] = values[_cells(n_bins, lightness, chroma)]
+    smooth = _smoothed(field, smoothing).ravel()  # a mirrored border makes it its own transpose
+    found = np.zeros(len(lab))
+    for places, shares in _corners(lab, n_bins):
+        found += shares * smooth[places]
+    return found
+
+
+def _smoothed(counts: FloatArray, smoothing: float) -> FloatArray:
+    return np.asarray(gaussian_filter(counts, smoothing, mode="reflect", radius=REACH))
+
+
+def _counts(lab: FloatArray, n_bins: int, areas: FloatArray | None = None) -> FloatArray:
     """Share samples linearly among bins; (n_bins, n_bins, n_bins)."""
+    counts = np.zeros(n_bins**3)
+    for places, shares in _corners(lab, n_bins):
+        counts += np.bincount(places, shares if areas is None else shares * areas, n_bins**3)
+    return counts.reshape((n_bins,) * 3)
+
+
+def _corners(lab: FloatArray, n_bins: int) -> Iterator[tuple[IntArray, FloatArray]]:
+    """Yield eight times the bin of each colour beside it, and its share in that; both (k,)."""
     places = (lab - LOWER) / (UPPER - LOWER) * n_bins - 0.5  # (k, 3), whole at the middle of a bin
     places = np.clip(places, 0.0, n_bins - 1.0)
     lowest = np.minimum(places.astype(np.int64), n_bins - 2)
     shares = np.stack([1.0 - (places - lowest), places - lowest])  # (2, k, 3): of the lower bin, of the upper
     first = lowest @ [n_bins**2, n_bins, 1]
-    counts = np.zeros(n_bins**3)
     for i, j, k in np.ndindex(2, 2, 2):
-        weights = shares[i, :, 0] * shares[j, :, 1] * shares[k, :, 2]
-        counts += np.bincount(first + (i * n_bins**2 + j * n_bins + k), weights, n_bins**3)
-    return counts.reshape((n_bins,) * 3)
+        yield first + (i * n_bins**2 + j * n_bins + k), shares[i, :, 0] * shares[j, :, 1] * shares[k, :, 2]
 
 
 @cache

@@ -1,4 +1,4 @@
-"""A preview's points: the vertices and triangles of a GLB that `worker.pictures.preview` wrote."""
+"""A preview's points: vertices, triangles and colours of a GLB that `worker.pictures.preview` wrote."""
 
 import json
 import struct
@@ -11,7 +11,7 @@ from worker.arrays import FloatArray, IntArray
 
 _HEADER = struct.Struct("<4sII")  # magic, version, length of the file
 _CHUNK = struct.Struct("<I4s")  # length, kind
-_TYPES = {5126: "<f4", 5125: "<u4", 5123: "<u2"}  # component types, glTF 2.0, section 3.6.2.2
+_TYPES = {5126: "<f4", 5125: "<u4", 5123: "<u2", 5121: "<u1"}  # component types, glTF 2.0, section 3.6.2.2
 
 
 class NoPreview(Exception):
@@ -37,6 +37,22 @@ def read_points(glb: bytes) -> tuple[FloatArray, IntArray]:
     return vertices.astype(np.float64), faces.astype(np.int64)
 
 
+def read_colours(glb: bytes) -> FloatArray:
+    """Return the sRGB (n, 3), 0…1, of a preview's vertices, as exact as 8 linear bits are.
+
+    Raises
+    ------
+    NoPreview
+    """
+    try:
+        document, numbers = _chunks(glb)
+        place = document["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"]
+        linear = _accessed(document, numbers, place).reshape(-1, 4)[:, :3].astype(np.float64) / 255.0
+    except (KeyError, IndexError, TypeError, ValueError, struct.error) as error:
+        raise NoPreview(f"a preview's colours could not be read: {error!r}") from error
+    return np.asarray(np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055))
+
+
 def _chunks(glb: bytes) -> tuple[dict[str, Any], memoryview]:
     """Return the document of a GLB and its numbers."""
     magic, version, size = _HEADER.unpack_from(glb)
@@ -48,9 +64,7 @@ def _chunks(glb: bytes) -> tuple[dict[str, Any], memoryview]:
     return document, memoryview(glb)[start + length + _CHUNK.size :]
 
 
-def _accessed(
-    document: dict[str, Any], numbers: memoryview, place: int
-) -> npt.NDArray[np.float32] | npt.NDArray[np.uint32]:
+def _accessed(document: dict[str, Any], numbers: memoryview, place: int) -> npt.NDArray[Any]:
     accessor = document["accessors"][place]
     view = document["bufferViews"][accessor["bufferView"]]
     kind = np.dtype(_TYPES[accessor["componentType"]])

@@ -1,0 +1,1 @@
+"""Why two shapes lie as far apart as they do: how much each region of each adds to their distance."""
