@@ -3,7 +3,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from worker.arrays import BoolArray, FloatArray
-from worker.descriptors.histograms import join_bins, lab_histogram
+from worker.descriptors.histograms import join_bins, lab_histogram, look_up_cells
 from worker.geometry.colour import srgb_to_lab
 from worker.parameters import Parameters
 
@@ -132,3 +132,21 @@ def test_joined_bins_tell_greys_apart_as_finely_as_before_and_strong_colours_les
     joined_strong, fine_strong = apart([50.0, 60.0, 40.0], [50.0, 65.0, 40.0])
     assert joined_grey > 0.9 * fine_grey
     assert joined_strong < 0.6 * fine_strong
+
+
+def test_looking_cells_up_is_the_transpose_of_filling_them() -> None:
+    random = np.random.default_rng(6)
+    lab, values = srgb_to_lab(random.random((30, 3))), random.random(469)
+    ones = np.ones(469)
+    parameters = Parameters()
+    shape = (parameters.histogram_lightness, parameters.histogram_chroma)
+    found = look_up_cells(values, lab, 16, 0.7, *shape)
+    inside = look_up_cells(ones, lab, 16, 0.7, *shape)
+    for place in range(30):
+        np.testing.assert_allclose(found[place], inside[place] * (joined(lab[[place]]) @ values))
+
+
+def test_areas_count_as_so_many_samples() -> None:
+    lab = srgb_to_lab(np.random.default_rng(7).random((3, 3)))
+    repeated = lab_histogram(lab[[0, 1, 1, 2, 2, 2]], 16, 0.7)
+    np.testing.assert_allclose(lab_histogram(lab, 16, 0.7, np.array([1.0, 2.0, 3.0])), repeated)

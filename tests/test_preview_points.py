@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from tests.shapes import sphere
+from worker.arrays import FloatArray
 from worker.pictures.preview import preview
-from worker.pictures.preview_points import NoPreview, read_points
+from worker.pictures.preview_points import NoPreview, read_colours, read_points
 
 
 def glb(levels: int = 2) -> bytes:
@@ -44,3 +45,21 @@ def test_a_mesh_of_many_vertices_keeps_its_indices() -> None:
 def test_what_is_no_preview_is_refused(damaged: bytes) -> None:
     with pytest.raises(NoPreview):
         read_points(damaged)
+
+
+def test_colours_come_back_within_half_a_step_of_their_eight_linear_bits() -> None:
+    vertices, faces = sphere(2)
+    colours = np.random.default_rng(0).random(vertices.shape)
+    found = read_colours(preview(vertices, faces, colours))
+    assert found.shape == colours.shape
+    assert np.abs(_linear(found) - _linear(colours)).max() <= 0.5 / 255 + 1e-9
+
+
+def _linear(srgb: FloatArray) -> FloatArray:
+    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
+
+
+def test_what_has_no_colours_is_refused() -> None:
+    whole = glb()
+    with pytest.raises(NoPreview):
+        read_colours(whole.replace(b"COLOR_0", b"COLOR_9"))

@@ -6,7 +6,7 @@ from index.methods import Method
 from worker.arrays import FloatArray
 
 STRONGEST = 0.5  # share of what is placed that has the strongest colour
-FAINT = 0.25  # of the usual density between unrelated shapes: what is less never has the strongest colour
+FAINT = 0.25  # of the usual distances between unrelated shapes: what is less never has the strongest colour
 USUAL = {
     "log-hks": 0.587,
     "colour-histogram": 1.83,
@@ -38,14 +38,13 @@ def scale_of(densities: FloatArray, shares: FloatArray, method: Method) -> float
     order = np.argsort(densities, kind="stable")
     summed = np.cumsum((densities * shares)[order])
     middle = densities[order][np.searchsorted(summed, (1.0 - STRONGEST) * summed[-1])]
-    return max(float(middle), FAINT * usual_density(method))
+    return max(float(middle), faint_density(method))
 
 
-def usual_density(method: Method) -> float:
-    """Return the mean density between unrelated shapes: their distance, spread over two surfaces."""
-    return (
-        sum(block.weight * USUAL[block.name] ** block.power for block in method.blocks if block.weight) / 2.0
-    )
+def faint_density(method: Method) -> float:
+    """Return the mean density, over two surfaces, of a distance that is a part of the usual ones."""
+    counted = [block for block in method.blocks if block.weight]
+    return sum(block.weight * (FAINT * USUAL[block.name]) ** block.power for block in counted) / 2.0
 
 
 def colours_of(densities: FloatArray, scale: float) -> FloatArray:

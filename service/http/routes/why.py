@@ -6,20 +6,18 @@ from anyio import to_thread
 from fastapi import APIRouter, Depends
 from starlette.responses import Response
 
-from index.errors import FileMissing, NotReady
 from index.methods import DEFAULT_METHOD
 from service.http.dependencies import MethodName, Services, ServicesPart, Weights
 from service.http.openapi import problems, whole_binary
-from service.http.reasons import ONE_SHAPE, QUESTION, READING
+from service.http.reasons import EXPLAINING, ONE_SHAPE, READING
 from service.http.why_schemas import WhyModel
 from service.intake.fields import read_weights
 from service.why.asking import Which, WhyQuestion, explain_stored
-from service.why.errors import NotExplained
 
 router = APIRouter(tags=["why"])
 
 GLB = "model/gltf-binary"
-ERRORS = problems(*READING, *ONE_SHAPE, *QUESTION, FileMissing, NotReady, NotExplained)
+ERRORS = problems(*READING, *ONE_SHAPE, *EXPLAINING)
 MESH = whole_binary(GLB, "the mesh of `preview.glb`, its vertices coloured by contribution") | ERRORS
 
 
