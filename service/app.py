@@ -44,6 +44,7 @@ from service.library import Library
 from service.refining import rehearse as rehearse_registration
 from service.relations.postures import rehearse as rehearse_postures
 from service.settings import Settings
+from service.why.sides import rehearse as rehearse_why
 
 OpenLibrary = Callable[[Settings], Library]
 RANKINGS = 2 * (os.cpu_count() or 1)  # threads that rank: more would only take turns
@@ -161,6 +162,7 @@ def _rehearse() -> None:
     rehearse_registration()
     rehearse_search()
     rehearse_postures()
+    rehearse_why()
 
 
 @contextlib.contextmanager

@@ -17,13 +17,10 @@ SEED = 2011
 ENDLESS = "watchShapes"  # a stream of events ends when its listener goes; tests of its own listen to it
 ANY_BUT_DEFECTS = ["2xx", "3xx", "4xx", "503", "507"]  # busy, and full: both are described, with what to do
 # What a schema says of these is that they are text or bytes; what is in them decides.
-OPAQUE = ["addShape", "searchByMesh", "listShapes", "findSimilar", "changeShape", "listTags"]
-OPAQUE += [
-    "listDuplicates",
-    "listDismissals",
-    "dismissPair",
-    "findSimilarToQuery",
-]  # cursors of their own; two ids that differ
+OPAQUE = ["addShape", "searchByMesh", "listShapes", "findSimilar", "findSimilarToQuery", "changeShape"]
+OPAQUE += ["listDuplicates", "listDismissals", "listTags"]  # cursors of their own
+OPAQUE += ["dismissPair"]  # two ids that differ
+OPAQUE += ["explainDistance", "explainOnQuery", "explainOnResult"]  # not all have places
 # In a form everything is text: `true` in place of a name arrives as one, an empty list as nothing at all.
 FORMS = ["addShape", "searchByMesh"]
 LATER = ["getThumbnail", "getPreview"]  # are there when a new shape is ready

@@ -83,6 +83,17 @@ def test_colours_that_no_point_has_have_no_place() -> None:
     assert shares @ cell_densities(grey, shares, fine, surplus, PARAMETERS) < 0.01 * surplus.sum()
 
 
+def test_of_colours_that_few_points_have_only_their_part_is_placed() -> None:
+    grey, red = srgb_to_lab(np.array([[0.5, 0.5, 0.5], [0.9, 0.1, 0.1]]))
+    lab, shares = np.vstack([np.tile(grey, (49, 1)), red]), np.full(50, 0.02)
+    held = 0.5 * histogram(lab[:1], np.ones(1)) + 0.5 * histogram(lab[-1:], np.ones(1))  # half of the texels
+    placed = cell_densities(
+        lab, shares, held, np.maximum(held - histogram(lab[:1], np.ones(1)), 0), PARAMETERS
+    )
+    assert shares @ placed == pytest.approx(0.02, rel=0.01)  # of a half: what the red point stands for
+    assert placed[-1] == pytest.approx(1.0, rel=0.01)
+
+
 @given(SEEDS)
 @settings(max_examples=40)
 def test_all_that_curves_differ_by_is_placed(seed: int) -> None:
@@ -114,3 +125,15 @@ def test_a_part_of_another_colour_is_where_curves_differ_on_both_surfaces() -> N
     for colours, own, other in ((lab, *curves), (painted, *curves[::-1])):
         placed = curve_densities(orders, colours, shares, own, other, 1.0)
         assert (shares * placed)[part].sum() > 0.9
+
+
+def test_what_shares_a_bin_with_another_part_in_one_order_alone_is_not_blamed() -> None:
+    heat = np.arange(2000) / 2000
+    orders = np.column_stack([heat, heat**2, heat % 0.5])
+    shares, lab = np.full(2000, 1 / 2000), np.full((2000, 3), 40.0)
+    part, beside = heat >= 14 / 16, (heat >= 6 / 16) & (heat < 8 / 16)
+    painted = np.where(part[:, None], [50.0, 60.0, 40.0], lab)
+    curves = [colour_curves(orders, colours, shares, 16) for colours in (lab, painted)]
+    masses = shares * curve_densities(orders, lab, shares, *curves, 1.0)
+    assert masses[part].sum() == pytest.approx(1.0)
+    assert masses[beside].sum() == pytest.approx(0.0)

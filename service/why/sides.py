@@ -118,6 +118,12 @@ def side_of(
     return side
 
 
+def rehearse() -> None:
+    """Load the compiled functions of this file; on a machine's first start they are compiled."""
+    srgb_to_lab(np.eye(3))
+    areas_of(np.eye(3), np.array([[0, 1, 2]]))
+
+
 def _check_same(side: Side) -> None:
     """Refuse a preview whose vertices are not those that the signatures belong to."""
     kept, shown = side.signature("areas"), areas_of(side.vertices, side.faces)
