@@ -78,7 +78,7 @@ def test_own_weights_count_as_in_a_search(service: Serving) -> None:
     assert found["distance"] == pytest.approx(found["blocks"][0]["distance"])
     colour = "log-hks:0,colour-histogram:1,colour-curves:0"
     meshes = [service.client.get(f"{path}/query.glb", params={"weights": w}).content for w in (shape, colour)]
-    assert not np.array_equal(*map(read_colours, meshes))
+    assert not np.array_equal(read_colours(meshes[0]), read_colours(meshes[1]))
 
 
 @pytest.mark.parametrize("end", ["", "/query.glb", "/result.glb"])
