@@ -51,12 +51,14 @@ class DuplicatesModel(BaseModel):
     """A page of groups; it may hold none while there are more pages."""
 
     items: list[GroupModel]
+    looked: int = Field(description="how many shapes this page looked at: with those before, how far it is")
     next_cursor: str | None = Field(description=NEXT)
 
     @classmethod
     def of(cls, page: DuplicatesPage) -> Self:
         """Return a page as it leaves."""
-        return cls(items=[GroupModel.of(found) for found in page.items], next_cursor=page.next_cursor)
+        items = [GroupModel.of(found) for found in page.items]
+        return cls(items=items, looked=page.looked, next_cursor=page.next_cursor)
 
 
 class DismissalModel(BaseModel):

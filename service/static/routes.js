@@ -4,6 +4,8 @@ import { showGallery } from "./gallery/view.js";
 
 const ROUTES = [
   [/^\/$/, "#/", showGallery],
+  [/^\/duplicates$/, "#/duplicates", async (context) => (await import("./duplicates/view.js")).showDuplicates(context)],
+  [/^\/jobs$/, "#/jobs", async (context) => (await import("./jobs/view.js")).showJobs(context)],
 ];
 
 /**

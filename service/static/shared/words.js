@@ -7,6 +7,7 @@ export const many = (number, one, several = `${one}s`) => `${count(number)} ${nu
 
 /** Bytes as people say them: "3.2 MB". */
 export function size(bytes) {
+  if (bytes < 1e3) return many(bytes, "byte");
   const step = bytes >= 1e9 ? [1e9, "GB"] : bytes >= 1e6 ? [1e6, "MB"] : [1e3, "kB"];
   return `${(bytes / step[0]).toLocaleString("en-GB", { maximumFractionDigits: bytes >= 1e6 ? 1 : 0 })} ${step[1]}`;
 }
@@ -28,3 +29,18 @@ export const RELATIONS = {
   part_of: "part of",
   similar: "similar",
 };
+
+/** Where the colours of a mesh come from, as the service names it, for people. */
+export const COLOURS = {
+  texture: "from pictures",
+  vertex: "at its points",
+  face: "on its faces",
+  material: "of its materials",
+  none: "none",
+};
+
+/** A time as people write it: "29 Nov 2026, 05:32". */
+export const when = (time) =>
+  new Date(time).toLocaleString("en-GB", { day: "numeric", month: "short", year: "numeric", hour: "2-digit", minute: "2-digit" });
+
+export const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
