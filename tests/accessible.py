@@ -1,4 +1,4 @@
-"""What a page must be for those who do not see it, or not well: axe-core finds nothing grave, in both schemes."""
+"""What a page must be for those who see little or nothing: axe-core finds nothing grave, in both schemes."""
 
 from typing import Literal
 

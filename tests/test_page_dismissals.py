@@ -1,5 +1,6 @@
 """What was called no duplicate stays so after a restart, until somebody takes it back."""
 
+from functools import partial
 from pathlib import Path
 
 from playwright.sync_api import Browser, Page, expect
@@ -18,14 +19,14 @@ def dismissed(page: Page) -> None:
 
 
 def test_dismissed_survives_a_restart_and_can_be_taken_back(tmp_path: Path, browser: Browser) -> None:
-    started = {"describe": describe_files, "open_library": open_small_library}
-    with serving(settings_for(tmp_path), **started) as service:
+    start = partial(serving, settings_for(tmp_path), describe=describe_files, open_library=open_small_library)
+    with start() as service:
         add_copies(service, 0, "amphora", HOSTILE)
         with opened(browser) as page:
             show(page, service)
             page.get_by_role("button", name="Not a duplicate").click()
             expect(page.get_by_role("button", name="Undo")).to_be_visible()
-    with serving(settings_for(tmp_path), **started) as service, opened(browser) as page:
+    with start() as service, opened(browser) as page:
         show(page, service)
         expect(page.get_by_text("No duplicates were found.")).to_be_visible()
         dismissed(page)

@@ -1,4 +1,4 @@
-"""What is left of a group on the page is what the service would give: the same rule, tried on the same pairs."""
+"""What is left of a group on the page is what the service would give: one rule, tried on the same pairs."""
 
 import random
 from collections.abc import Iterator

@@ -30,9 +30,9 @@ class Pages:
         self.asked: list[str] = []
         self.empty = empty
         page.route("**/v1/counts", lambda route: route.fulfill(json={"ready": 1000}))
-        page.route("**/v1/duplicates?**", self.answer)
+        page.route("**/v1/duplicates?**", self._answer)
 
-    def answer(self, route: Route) -> None:
+    def _answer(self, route: Route) -> None:
         self.asked.append(route.request.url)
         number = len(self.asked)
         if number <= self.empty:

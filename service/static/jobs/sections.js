@@ -27,7 +27,7 @@ function row(shape, on) {
   const bytes = shape.files.reduce((sum, file) => sum + file.size, 0);
   return html`<li class="job ${shape.status}">
     <div>
-      <a href="#/shapes/${encodeURIComponent(shape.id)}">${shape.name}</a>
+      <a href="#/shapes/${encodeURIComponent(shape.id)}/details">${shape.name}</a>
       ${shape.error ? reason(shape.error) : nothing}
       ${on.refused?.id === shape.id ? html`<p role="alert">${on.refused.problem.message} <small><code>${on.refused.problem.code}</code></small></p>` : nothing}
       <small>${size(bytes)} in ${many(shape.files.length, "file")}; added on ${when(shape.created_at)}</small>
