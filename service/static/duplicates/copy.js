@@ -22,7 +22,7 @@ export function copy(shape, others, actions) {
   const all = others.map(factsOf);
   const differs = (place) => new Set(all.map((facts) => facts[place][1])).size > 1;
   return html`<li class="copy">
-    <a href="#/shapes/${encodeURIComponent(shape.id)}/details">
+    <a href="#/shapes/${encodeURIComponent(shape.id)}/details" title=${shape.name}>
       ${portrait(shape, WIDTH)}
       <span class="name">${shape.name}</span>
     </a>

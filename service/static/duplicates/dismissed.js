@@ -59,7 +59,7 @@ function list({ pairs, cursor }, on) {
 function pairView(pair, on) {
   const { one, other } = pair;
   return html`<li>
-    ${[one, other].map((shape) => html`<a href="#/shapes/${encodeURIComponent(shape.id)}/details">
+    ${[one, other].map((shape) => html`<a href="#/shapes/${encodeURIComponent(shape.id)}/details" title=${shape.name}>
       ${portrait(shape, "6rem")}<span class="name">${shape.name}</span></a>`)}
     <div><small>Dismissed on ${when(pair.created_at)}</small>
       <button @click=${() => on.takeBack(pair)}>Take back<span class="unseen"> (${one.name} and ${other.name})</span></button></div>
