@@ -28,7 +28,7 @@ def test_dismissed_survives_a_restart_and_can_be_taken_back(tmp_path: Path, brow
             expect(page.get_by_role("button", name="Undo")).to_be_visible()
     with start() as service, opened(browser) as page:
         show(page, service)
-        expect(page.get_by_text("No duplicates were found.")).to_be_visible()
+        expect(page.get_by_role("heading", name="No duplicates were found")).to_be_visible()
         dismissed(page)
         pair = page.get_by_role("listitem").filter(has_text="amphora")
         expect(pair.get_by_role("link", name=HOSTILE)).to_be_visible()

@@ -44,7 +44,7 @@ def test_copies_stand_side_by_side_with_what_tells_them_apart(service: Serving, 
             expect(card.locator("dl")).to_contain_text("6")
             expect(card.locator("img")).to_have_js_property("complete", True)
         assert page.get_by_role("article").count() == 1
-        expect(page.locator(".look").get_by_text("Looked at all 3 shapes.")).to_be_visible()
+        expect(page.locator(".looking").get_by_text("Looked at all 3 shapes.")).to_be_visible()
         group.get_by_text("Why the two are together").click()
         expect(group.get_by_text("of the surface is formed otherwise")).to_be_visible()
         assert_accessible(page)
@@ -55,10 +55,10 @@ def test_a_dismissal_can_be_undone_where_it_was_made(service: Serving, browser: 
     with opened(browser) as page:
         show(page, service)
         page.get_by_role("button", name="Not a duplicate").press("Enter")
-        expect(page.locator(".note")).to_contain_text("are no duplicates.")
+        expect(page.locator(".decision")).to_contain_text("are no duplicates.")
         assert page.get_by_role("article").count() == 0
         assert groups(service) == []
-        expect(page.locator(".note")).to_be_focused()
+        expect(page.locator(".decision")).to_be_focused()
         page.keyboard.press("Tab")
         page.keyboard.press("Enter")
         expect(page.get_by_role("article")).to_be_visible()
@@ -72,7 +72,7 @@ def test_a_shape_that_does_not_belong_leaves_the_others_together(service: Servin
         show(page, service)
         page.get_by_role("button", name="Does not belong here (odd one)").click()
         expect(page.get_by_role("heading", name="2 shapes: the same shape")).to_be_visible()
-        expect(page.locator(".note")).to_contain_text("“odd one” does not belong to this group.")
+        expect(page.locator(".decision")).to_contain_text("“odd one” does not belong to this group.")
         (left,) = groups(service)
         assert {shape["name"] for shape in left["shapes"]} == {"amphora", "copy"}
         assert len(service.client.get("/v1/duplicates/dismissals").json()["items"]) == 2
@@ -95,7 +95,7 @@ def test_a_shape_is_removed_only_after_a_question_that_names_it(service: Serving
         assert service.client.get(f"/v1/shapes/{copy}").status_code == 200
         page.get_by_role("button", name="Remove… (copy)").click()
         question.get_by_role("button", name="Remove it for good").click()
-        expect(page.locator(".note")).to_contain_text("“copy” was removed.")
+        expect(page.locator(".decision")).to_contain_text("“copy” was removed.")
         assert page.get_by_role("article").count() == 0
         assert service.client.get(f"/v1/shapes/{copy}").status_code == 404
 
@@ -104,7 +104,7 @@ def test_what_is_looked_for_stands_in_the_address(service: Serving, browser: Bro
     add_copies(service, 0, "amphora", "copy")
     with opened(browser) as page:
         show(page, service, "?relation=same_file&relation=re_posed")
-        expect(page.get_by_text("No duplicates were found.")).to_contain_text("same file; re-posed")
+        expect(page.get_by_text("Each shape was compared")).to_contain_text("same file; re-posed")
         expect(page.get_by_label("Recoloured")).not_to_be_checked()
         page.get_by_label("Same shape").check()
         expect(page.get_by_role("article")).to_be_visible()
@@ -127,5 +127,5 @@ def test_a_shape_that_is_removed_elsewhere_leaves_its_group(service: Serving, br
 def test_an_empty_library_says_what_to_do(service: Serving, browser: Browser) -> None:
     with opened(browser, PHONE) as page:
         show(page, service)
-        expect(page.get_by_text("There is nothing to compare yet")).to_be_visible()
+        expect(page.get_by_role("heading", name="There is nothing to compare yet")).to_be_visible()
         assert_accessible(page)

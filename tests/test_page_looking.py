@@ -48,7 +48,7 @@ def test_it_goes_on_by_itself_until_a_group_is_found(service: Serving, browser: 
         pages = Pages(page, empty=3)
         page.goto(f"{service.client.base_url}#/duplicates")
         expect(page.get_by_role("article")).to_be_visible()
-        expect(page.locator(".look")).to_contain_text("Looked at 200 of 1,000 shapes.")
+        expect(page.locator(".looking")).to_contain_text("Looked at 200 of 1,000 shapes.")
         assert len(pages.asked) == 4
         assert "cursor=page+3" in pages.asked[-1]
 

@@ -104,7 +104,7 @@ export class Actions {
   /** Show a note, in the place of the button that was pressed. */
   #told(note) {
     if (this.state.dismissed.pairs) this.#readDismissed(); // it may be open below
-    this.#changed(`#note-${note.number}`);
+    this.#changed(`#decision-${note.number}`);
     say(note.problem ? "" : note.text);
   }
 

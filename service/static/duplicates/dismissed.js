@@ -67,6 +67,6 @@ function pairView(pair, on) {
 }
 
 function takenBackView({ one, other, back }, on) {
-  return html`<p class="note row" id="taken-back" tabindex="-1"><span>“${one.name}” and “${other.name}” may be in a group again${back ? ": they are shown above." : "."}</span>
+  return html`<p class="decision row" id="taken-back" tabindex="-1"><span>“${one.name}” and “${other.name}” may be in a group again${back ? ": they are shown above." : "."}</span>
     ${back ? nothing : html`<button @click=${on.again}>Look again</button>`}</p>`;
 }

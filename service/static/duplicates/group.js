@@ -52,14 +52,14 @@ function evidence({ shapes, evidence: pairs }) {
     <summary>Why ${shapes.length === 2 ? "the two are" : "these are"} together</summary>
     ${pairs.slice(0, SHOWN).map(({ one, other, relation }) => html`
       <p class="between">“${names.get(one)}” and “${names.get(other)}”: <strong>${RELATIONS[relation.name]}</strong></p>
-      <ul class="told">${evidenceOf(relation).map((sentence) => html`<li>${sentence}</li>`)}</ul>`)}
+      <ul class="reasons">${evidenceOf(relation).map((sentence) => html`<li>${sentence}</li>`)}</ul>`)}
     ${rest > 0 ? html`<p class="soft">And ${many(rest, "more pair")}.</p>` : nothing}
   </details>`;
 }
 
 function noteView(note, on) {
   const undo = note.pairs.length ? html`<button @click=${() => on.undo(note)}>Undo</button>` : nothing;
-  return html`<p class="note row" id="note-${note.number}" tabindex="-1">
+  return html`<p class="decision row" id="decision-${note.number}" tabindex="-1">
     ${note.problem ? html`<span role="alert">${note.problem.message} <small><code>${note.problem.code}</code></small></span>` : html`<span>${note.text}</span>`} ${undo}
   </p>`;
 }

@@ -19,7 +19,7 @@ export function reached({ looked, ended, running }, total) {
 export function progressView(look, total, on) {
   if (look.ended && !look.looked) return nothing; // nothing is said of an empty library
   const problem = look.problem && html`<p role="alert">${look.problem.message} <small><code>${look.problem.code}</code></small></p>`;
-  return html`<div class="look">
+  return html`<div class="looking">
     ${problem ?? nothing}
     <p>${reached(look, total)}</p>
     ${look.running ? html`<progress aria-label="Shapes looked at" max=${Math.max(total ?? 0, look.looked, 1)} value=${look.looked}></progress>
@@ -31,8 +31,11 @@ export function progressView(look, total, on) {
 /** What stands where no group does. */
 export function emptyView({ looked, ended, running, kinds }, found) {
   if (running || !ended || found) return nothing;
-  if (!looked) return html`<p class="empty">There is nothing to compare yet: the library holds no shape that is ready. Drop meshes anywhere on this page
-    to add them; <a href="#/jobs">Jobs</a> shows what is waiting.</p>`;
-  return html`<p class="empty">No duplicates were found. Each shape was compared with those nearest to it, for: ${kinds.map((kind) => RELATIONS[kind]).join("; ")}.
-    Parts of shapes are not looked for here; a shape’s own page tells them.</p>`;
+  if (!looked) {
+    return html`<div class="empty"><h2>There is nothing to compare yet</h2>
+      <p>The library holds no shape that is ready. Drop meshes anywhere on this page to add them; <a href="#/jobs">Jobs</a> shows what is waiting.</p></div>`;
+  }
+  return html`<div class="empty"><h2>No duplicates were found</h2>
+    <p>Each shape was compared with those nearest to it, for: ${kinds.map((kind) => RELATIONS[kind]).join("; ")}.
+      Parts of shapes are not looked for here: what is similar to a shape tells them.</p></div>`;
 }

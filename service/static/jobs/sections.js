@@ -17,7 +17,7 @@ const TITLES = { processing: "Running", queued: "Waiting", failed: "Failed" };
 export function section(status, list, total, on, head = nothing) {
   if (!total && !list.items.length) return nothing;
   return html`<section aria-labelledby="jobs-${status}">
-    <div class="row head"><h2 id="jobs-${status}" tabindex="-1">${TITLES[status]} <span class="soft">${count(total)}</span></h2>${head}</div>
+    <div class="row beside"><h2 id="jobs-${status}" tabindex="-1">${TITLES[status]} <span class="soft">${count(total)}</span></h2>${head}</div>
     ${list.items.length ? html`<ul class="jobs">${repeat(list.items, ({ id }) => id, (shape) => row(shape, on))}</ul>` : nothing}
     ${list.cursor ? html`<p><button @click=${() => on.more(status)}>Show more<span class="unseen"> (${TITLES[status]})</span></button></p>` : nothing}
   </section>`;

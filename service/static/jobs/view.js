@@ -56,7 +56,7 @@ function page(state, actions) {
     ${STATUSES.map((status) => section(status, lists[status], queue[status], { refused, ...actions }, status === "failed" ? all(retrying, actions) : nothing))}`;
 }
 
-const stall = (words) => (words ? html`<p class="note">${words}</p>` : nothing);
+const stall = (words) => (words ? html`<p class="stall">${words}</p>` : nothing);
 
 /** The button that tries all again, or how far that is. */
 function all(retrying, actions) {

@@ -15,7 +15,7 @@ export function confirmed({ title, text, action, keep = "Keep it", signal }) {
   render(html`<form method="dialog">
     <h2 id="question">${title}</h2>
     <p>${text}</p>
-    <p class="row"><button value="" autofocus>${keep}</button> <button value="yes" class="danger">${action}</button></p>
+    <p class="row"><button value="" autofocus>${keep}</button> <button value="yes" class="danger strong">${action}</button></p>
   </form>`, dialog);
   document.body.append(dialog);
   dialog.showModal();
