@@ -11,6 +11,7 @@ import { html, render } from "../vendor/lit-html.js";
  */
 export function confirmed({ title, text, action, keep = "Keep it", signal }) {
   const dialog = document.createElement("dialog");
+  dialog.className = "question";
   dialog.setAttribute("aria-labelledby", "question");
   render(html`<form method="dialog">
     <h2 id="question">${title}</h2>
