@@ -6,6 +6,8 @@ const ROUTES = [
   [/^\/$/, "#/", showGallery],
   [/^\/duplicates$/, "#/duplicates", async (context) => (await import("./duplicates/view.js")).showDuplicates(context)],
   [/^\/jobs$/, "#/jobs", async (context) => (await import("./jobs/view.js")).showJobs(context)],
+  [/^\/shapes\/([^/]+)$/, "#/", async (context) => (await import("./answer/view.js")).showAnswer({ ...context, kind: "shapes" })],
+  [/^\/queries\/([^/]+)$/, "#/", async (context) => (await import("./answer/view.js")).showAnswer({ ...context, kind: "queries" })],
 ];
 
 /**

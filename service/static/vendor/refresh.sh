@@ -11,8 +11,7 @@ npm install --silent --no-package-lock --no-save \
 
 cat > three.js <<'END'
 export {
-  AmbientLight, BufferGeometry, Color, DirectionalLight, Group, HemisphereLight, PerspectiveCamera,
-  Scene, SRGBColorSpace, Vector2, Vector3, WebGLRenderer,
+  PerspectiveCamera, Scene, ShaderMaterial, Vector3, WebGLRenderer,
 } from "three";
 export { OrbitControls } from "three/addons/controls/OrbitControls.js";
 export { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
