@@ -1,9 +1,10 @@
 // The others by rank: how far each is, and what it is to the query.
 
 import { html, repeat } from "../vendor/lit-html.js";
-import { evidenceOf } from "../shared/evidence.js";
+import { bar, short } from "../shared/measures.js";
 import { picture } from "../shared/picture.js";
-import { RELATIONS, count } from "../shared/words.js";
+import { evidence, relationName } from "../shared/relation.js";
+import { count } from "../shared/words.js";
 import { isDefault } from "./asked.js";
 
 const SIZES = "(max-width: 30rem) 42vw, 9.5rem"; // of a picture, see styles/answer.css
@@ -38,21 +39,7 @@ function card(answer, { rank, distance, shape, relation }, place, farthest) {
   </li>`;
 }
 
-/** A bar whose length is a share of the whole. */
-export const bar = (share) => html`<svg class="bar" viewBox="0 0 100 6" preserveAspectRatio="none" aria-hidden="true"><rect width=${(100 * share).toFixed(1)} height="6"></rect></svg>`;
-
-/** A distance, so short that it can be compared at a glance. */
-export const short = (distance) => distance >= 0.1 || distance === 0
-  ? distance.toLocaleString("en-GB", { minimumFractionDigits: 2, maximumFractionDigits: 2 })
-  : distance.toLocaleString("en-GB", { maximumSignificantDigits: 2 });
-
-const PARTS = { query: "the query is a part of it", result: "a part of the query" };
-
-export const relationName = ({ name, part }) => PARTS[part] ?? RELATIONS[name] ?? name;
-
 /** The relation; its evidence where somebody asks. */
 const related = (relation, id) => html`
   <button class="plain ${relation.name}" popovertarget="evidence-${id}" aria-label="${relationName(relation)}: why">${relationName(relation)}</button>
   <div id="evidence-${id}" class="evidence" popover>${evidence(relation)}</div>`;
-
-export const evidence = (relation) => html`<ul>${evidenceOf(relation).map((sentence) => html`<li>${sentence}</li>`)}</ul>`;

@@ -7,7 +7,7 @@ import { say } from "../shared/said.js";
 import { askedOf, inAddress, isDefault } from "./asked.js";
 import { controls } from "./controls.js";
 import { parametersOf, wordsFor } from "./dial.js";
-import { Latest } from "./latest.js";
+import { Latest } from "../shared/latest.js";
 import { moving } from "./moving.js";
 import { methodTitle } from "./names.js";
 import { results } from "./results.js";

@@ -11,7 +11,7 @@ npm install --silent --no-package-lock --no-save \
 
 cat > three.js <<'END'
 export {
-  PerspectiveCamera, Scene, ShaderMaterial, Vector3, WebGLRenderer,
+  PerspectiveCamera, Scene, ShaderMaterial, WebGLRenderer,
 } from "three";
 export { OrbitControls } from "three/addons/controls/OrbitControls.js";
 export { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
