@@ -65,6 +65,7 @@ def test_the_middle_is_the_default_with_its_second_look(
     with answer_of(service, f"/#/shapes/{query}?colour=70", browser) as page:
         assert page.evaluate(WEIGH, [{"method": "", "colour": 50}, METHODS]) == {}
         page.get_by_role("button", name="Back to the middle").click()
+        expect(page.get_by_role("slider")).to_be_focused()
         expect(page.get_by_text("looked at a second time")).to_be_visible()
         expect(page.locator(".relation button")).to_have_count(3)
         assert page.evaluate("location.hash") == f"#/shapes/{query}"

@@ -9,6 +9,10 @@ import { methodTitle } from "./names.js";
 export function controls(answer) {
   const { asked, methods } = answer;
   const turn = (colour) => answer.compare({ method: "", colour });
+  const back = ({ target }) => {
+    target.closest(".controls").querySelector("input").focus(); // the button goes
+    turn(MIDDLE);
+  };
   return html`<div class="controls" role="group" aria-label="How to compare">
     <div class="dial ${asked.method ? "idle" : ""}">
       <button @click=${() => turn(0)}>Geometry</button>
@@ -25,7 +29,7 @@ export function controls(answer) {
       </optgroup>
     </select>
     <p class="hint">${hint(asked, methods)}
-      <button class="plain" ?disabled=${isDefault(asked)} @click=${() => turn(MIDDLE)}>Back to the middle</button></p>
+      <button class="plain" ?disabled=${isDefault(asked)} @click=${back}>Back to the middle</button></p>
   </div>`;
 }
 

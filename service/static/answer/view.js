@@ -14,6 +14,7 @@ import { results } from "./results.js";
 import { forgotten, removed, subject, unready } from "./subject.js";
 
 const STEPS = [24, 96, 384, 1000]; // results shown, more by more; the service gives no more than the last
+const PATIENCE = 250; // milliseconds that an answer may take, until a newer question ends it
 
 /** Show `#/shapes/ID` or `#/queries/ID`; `kind` is which of the two. */
 export async function showAnswer({ root, parameters, signal, kind }) {
@@ -25,7 +26,8 @@ class Answer {
     Object.assign(this, { root, signal, kind, id, asked });
     this.parts = [kind, id];
     this.base = path(this.parts);
-    this.latest = new Latest(signal);
+    this.ranking = new Latest(signal, PATIENCE);
+    this.relating = new Latest(signal);
     this.limit = STEPS[0];
     this.ranked = undefined; // the service's answer
     this.refusal = undefined; // why there is none
@@ -75,19 +77,17 @@ class Answer {
 
   /** Rank as asked now. The relations take longer: they follow. */
   async ask() {
+    this.relating.end();
     try {
-      await this.latest.run(async (signal) => {
-        const settings = { ...parametersOf(this.asked, this.methods), limit: this.limit };
-        this.show(await this.rank(settings, signal));
-        if (isDefault(this.asked)) this.show(await this.rank({ ...settings, relations: true }, signal));
-      });
+      const ranked = await this.ranking.run(async (signal) => this.show(await this.rank({}, signal)));
+      if (ranked && isDefault(this.asked)) await this.relating.run(async (signal) => this.show(await this.rank({ relations: true }, signal)));
     } catch (error) {
       this.refuse(error);
     }
   }
 
   rank(settings, signal) {
-    return read(path([...this.parts, "similar"], settings), { signal });
+    return read(path([...this.parts, "similar"], { ...parametersOf(this.asked, this.methods), limit: this.limit, ...settings }), { signal });
   }
 
   show(ranked) {

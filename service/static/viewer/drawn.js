@@ -5,6 +5,7 @@ import { path } from "../shared/api.js";
 import { short } from "../shared/measures.js";
 import { picture } from "../shared/picture.js";
 import { evidence, relationName } from "../shared/relation.js";
+import { capital } from "../shared/words.js";
 import { pressed } from "./keys.js";
 import { explanation } from "./why.js";
 
@@ -25,16 +26,18 @@ export function drawn(viewer) {
       ${result ? half(viewer, ["shapes", result.shape.id], beside(viewer)) : ""}
       <canvas tabindex="0" role="img" ?hidden=${viewer.blind} aria-label="${named(viewer)} ${HELP}"></canvas>
     </div>
-    <div class="foot">${tools(viewer)}${told(viewer)}</div>
+    <div class="foot ${result ? "pair" : ""}">${tools(viewer)}<div class="told" tabindex=${result ? 0 : -1} role="region" aria-label="What is seen">${told(viewer)}</div></div>
   </div>`;
 }
 
 const named = ({ query, result }) => (result ? `${query.name}, and ${result.shape.name}, in 3D.` : `${query.name} in 3D.`);
 
 const steps = (viewer) => html`<span class="row">
-  <button aria-label="Previous result" title="Page Up" ?disabled=${viewer.place === 0} @click=${() => viewer.go(viewer.place - 1)}>‹</button>
-  <button aria-label="Next result" title="Page Down" ?disabled=${viewer.place === viewer.results.length - 1} @click=${() => viewer.go(viewer.place + 1)}>›</button>
-</span>`;
+  ${step(viewer, viewer.place - 1, "Previous result", "‹", "Page Up")}${step(viewer, viewer.place + 1, "Next result", "›", "Page Down")}</span>`;
+
+/** At an end the button stays where the focus is. */
+const step = (viewer, place, name, sign, key) => html`<button aria-label=${name} title=${key} aria-disabled=${!viewer.results[place]}
+  @click=${() => viewer.go(place)}>${sign}</button>`;
 
 const half = (viewer, parts, caption) => html`<figure class="half">
   <figcaption>${caption}</figcaption>
@@ -60,7 +63,7 @@ function tools(viewer) {
 function told({ blind, problem, mode, explained, result, parameters }) {
   if (blind) return html`<p role="alert">This browser shows no 3D (WebGL is off or missing), so these are the pictures alone.</p>`;
   if (problem) return html`<p role="alert">${problem.message} <small>(${problem.code})</small></p>`;
-  if (mode === "why") return html`<div class="explained">${explained ? explanation(explained, !parameters.method) : html`<p class="soft">Comparing…</p>`}</div>`;
-  if (result?.relation) return html`<details class="explained"><summary>Why “${relationName(result.relation)}”</summary>${evidence(result.relation)}</details>`;
+  if (mode === "why") return explained ? explanation(explained, !parameters.method) : html`<p class="soft">Comparing…</p>`;
+  if (result?.relation) return html`<p><strong>${capital(relationName(result.relation))}</strong>, since:</p>${evidence(result.relation)}`;
   return html`<p class="soft">${HELP}</p>`;
 }

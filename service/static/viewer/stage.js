@@ -12,7 +12,8 @@ const PACE = 1.5; // of turning by itself; 1 is a turn a minute
 
 export class Stage {
   #models = [];
-  #frame;
+  #frame; // asked for
+  #last = 0; // time of the picture before
 
   /** Prepare a canvas; undefined where the browser has no WebGL. `onHeld` hears that somebody takes hold of the models. */
   static on(canvas, onHeld) {
@@ -68,18 +69,15 @@ export class Stage {
     this.#ask();
   }
 
+  /** Ask for one picture, however often it is asked for; while it turns, for one after the other. */
   #ask() {
     this.#frame ??= requestAnimationFrame((time) => {
+      if (this.controls.autoRotate) this.controls.update(Math.min((time - this.#last) / 1000, 0.1));
+      this.#last = time;
       this.#frame = undefined;
       this.#draw();
-      if (this.controls.autoRotate) this.#spun(time);
+      if (this.controls.autoRotate) this.#ask();
     });
-  }
-
-  #spun(time) {
-    const seconds = Math.min((time - (this.last ?? time)) / 1000, 0.1);
-    this.last = time;
-    this.controls.update(seconds || 1e-3); // asks for the next frame, since it turns
   }
 
   #draw() {
