@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 from PIL import Image
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Browser, Page, Route, expect
 
 from tests.accessible import assert_accessible
 from tests.answering import answer_of, blocks_served
@@ -121,6 +121,20 @@ def test_results_follow_each_other_by_keys_and_buttons(
         expect(caption).to_have_text(f"3. {names[2]}")
         page.keyboard.press("PageUp")
         expect(caption).to_have_text(f"2. {names[1]}")
+
+
+def test_a_relation_that_comes_later_is_told_there_too(
+    library: tuple[Serving, str], browser: Browser
+) -> None:
+    service, query = library
+    held: list[Route] = []
+    with answer_of(service, "/", browser) as page:
+        page.route("**/similar?*relations=true*", lambda route: held.append(route))
+        page.evaluate(f"location.hash = '#/shapes/{query}'")
+        compare(page)
+        expect(page.locator(".viewer .told")).not_to_contain_text("Recoloured")
+        held[0].continue_()
+        expect(page.locator(".viewer .told")).to_contain_text("Recoloured, since")
 
 
 def test_escape_gives_the_focus_back(library: tuple[Serving, str], browser: Browser) -> None:

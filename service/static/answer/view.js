@@ -94,6 +94,7 @@ class Answer {
     this.ranked = ranked;
     this.refusal = undefined;
     moving(() => this.root.querySelector(".results"), () => this.draw());
+    this.viewer?.update(ranked.results);
     const [nearest] = ranked.results;
     if (nearest) say(`${this.comparison()}: nearest is ${nearest.shape.name}.`);
   }
@@ -130,7 +131,7 @@ class Answer {
   /** Open the 3D view: of the query alone, or beside the result at a place of the list. */
   async look(place) {
     const { openViewer } = await import("../viewer/dialog.js");
-    openViewer({
+    this.viewer = openViewer({
       query: { parts: this.parts, name: this.query.name },
       results: place === undefined ? [] : this.ranked.results,
       place: place ?? 0,

@@ -17,8 +17,13 @@ const calm = matchMedia("(prefers-reduced-motion: reduce)");
  * @param {{method?: string, weights?: string}} options.parameters - by which they were ranked
  * @param {(id: string) => string} options.address - of the page of what is similar to a shape
  * @param {AbortSignal} options.signal - closes it
+ * @returns {{update: (results: object[]) => void}} `update` where more is known about the same results
  */
-export const openViewer = (options) => new Viewer(options).open();
+export function openViewer(options) {
+  const viewer = new Viewer(options);
+  viewer.open();
+  return viewer;
+}
 
 class Viewer {
   constructor(options) {
@@ -58,6 +63,12 @@ class Viewer {
 
   get result() {
     return this.results[this.place];
+  }
+
+  update(results) {
+    if (this.closing.signal.aborted || !this.result) return;
+    this.results = results;
+    this.draw();
   }
 
   go(place) {
