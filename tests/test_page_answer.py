@@ -8,7 +8,7 @@ from playwright.sync_api import Browser, Route, expect
 from service.jobs.describing import describe_files
 from tests.accessible import assert_accessible
 from tests.answering import BLUE, CUBE, HOSTILE, RED, add, answer_of, answering, block, blocks_served, names
-from tests.browsing import PHONE
+from tests.browsing import DESK, PHONE
 from tests.serving import Serving, serving, settings_for
 from tests.small_library import open_small_library
 
@@ -89,8 +89,8 @@ def test_a_hostile_name_is_text(library: tuple[Serving, str], browser: Browser) 
 @pytest.mark.parametrize("phone", [False, True])
 def test_everybody_can_read_it(library: tuple[Serving, str], browser: Browser, phone: bool) -> None:
     service, query = library
-    viewport = {"viewport": PHONE, "touch": True} if phone else {}
-    with answer_of(service, f"/#/shapes/{query}", browser, **viewport) as page:
+    viewport = PHONE if phone else DESK
+    with answer_of(service, f"/#/shapes/{query}", browser, viewport, touch=phone) as page:
         expect(page.locator(".relation button")).to_have_count(3)
         assert_accessible(page)
         wide = page.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth")

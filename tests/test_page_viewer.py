@@ -10,7 +10,7 @@ from playwright.sync_api import Browser, Page, Route, expect
 
 from tests.accessible import assert_accessible
 from tests.answering import answer_of, blocks_served
-from tests.browsing import PHONE
+from tests.browsing import DESK, PHONE
 from tests.serving import Serving
 from worker.arrays import ByteArray
 
@@ -227,9 +227,8 @@ def test_without_webgl_the_thumbnails_are_large_and_it_says_why(
 @pytest.mark.parametrize("phone", [False, True])
 def test_everybody_can_use_it(library: tuple[Serving, str], browser: Browser, phone: bool) -> None:
     service, query = library
-    with answer_of(
-        service, f"/#/shapes/{query}", browser, **({"viewport": PHONE, "touch": True} if phone else {})
-    ) as page:
+    viewport = PHONE if phone else DESK
+    with answer_of(service, f"/#/shapes/{query}", browser, viewport, touch=phone) as page:
         expect(page.locator(".relation button")).to_have_count(3)
         compare(page)
         assert_accessible(page)
