@@ -1,6 +1,7 @@
 // The start of the page: the address after # chooses a view, which lives until the next one.
 
 import { html, render } from "./vendor/lit-html.js";
+import { startAdding } from "./adding/start.js";
 import { Problem } from "./shared/api.js";
 import { askForKey } from "./shared/key.js";
 import { routeOf } from "./routes.js";
@@ -47,4 +48,5 @@ window.addEventListener("hashchange", () => {
   main.focus({ preventScroll: true }); // a new page: those who listen begin at its content
   window.scrollTo(0, 0);
 });
+startAdding();
 show();

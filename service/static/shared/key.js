@@ -5,6 +5,7 @@ import { html, render } from "../vendor/lit-html.js";
 const NAME = "key";
 
 export const heldKey = () => sessionStorage.getItem(NAME);
+export const forgetKey = () => sessionStorage.removeItem(NAME);
 
 /** Show a form for the key in the place of a view. */
 export function askForKey(root, then) {
