@@ -32,7 +32,7 @@ class Upload {
     this.results = null; // of a question whose answer could not be kept
     this.query = null; // of a question whose answer is kept
     this.note = ""; // what else its row says
-    this.changed = last; // grows with every change of state
+    this.changed = 0; // grows with every change of state
   }
 
   /** Look what it brings along; one that cannot be read is found out when it is sent. */
