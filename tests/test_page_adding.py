@@ -1,9 +1,10 @@
-"""Meshes are added from the page, by people: dropped or chosen, refused in words, mended, ready with a picture."""
+"""Meshes are added from the page: dropped or chosen, refused in words, mended, ready with a picture."""
 
 import io
 import zipfile
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from playwright.sync_api import Browser, expect
@@ -26,7 +27,9 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Serving]:
         yield running
 
 
-def test_a_missing_image_is_named_added_and_the_shape_shown(service: Serving, browser: Browser, tmp_path: Path) -> None:
+def test_a_missing_image_is_named_added_and_the_shape_shown(
+    service: Serving, browser: Browser, tmp_path: Path
+) -> None:
     files = write(tmp_path, vase(1.1))
     with opened(browser, expected=(REFUSED,)) as page:
         page.goto(str(service.client.base_url))
@@ -35,7 +38,9 @@ def test_a_missing_image_is_named_added_and_the_shape_shown(service: Serving, br
         assert_accessible(page)
         choose(page, page.get_by_role("button", name="Add the missing file"), str(files / "clay.png"))
         expect(row(page, "vase")).to_contain_text("ready")
-        expect(row(page, "vase").get_by_role("link", name="vase")).to_have_attribute("href", _address(service, "vase"))
+        expect(row(page, "vase").get_by_role("link", name="vase")).to_have_attribute(
+            "href", _address(service, "vase")
+        )
         picture = row(page, "vase").locator("img")
         expect(picture).to_have_js_property("complete", True)
         assert picture.evaluate("image => image.naturalWidth") > 0
@@ -44,7 +49,9 @@ def test_a_missing_image_is_named_added_and_the_shape_shown(service: Serving, br
     assert shape["mesh"]["colour"] == "texture"
 
 
-def test_a_missing_file_may_be_dropped_onto_its_row(service: Serving, browser: Browser, tmp_path: Path) -> None:
+def test_a_missing_file_may_be_dropped_onto_its_row(
+    service: Serving, browser: Browser, tmp_path: Path
+) -> None:
     files = write(tmp_path, vase(1.2))
     with opened(browser, expected=(REFUSED,)) as page:
         page.goto(str(service.client.base_url))
@@ -91,9 +98,14 @@ def test_a_folder_gives_a_shape_of_each_mesh_and_tells_what_it_left_out(
     service: Serving, browser: Browser, tmp_path: Path
 ) -> None:
     shared = {"all.mtl": vase(1)["vase.mtl"], "clay.png": vase(1)["clay.png"]}
-    meshes = {f"sub/{name}.obj": textured(width, library="../all.mtl") for name, width in zip("abc", (2, 3, 4), strict=True)}
+    meshes = {
+        f"sub/{name}.obj": textured(width, library="../all.mtl")
+        for name, width in zip("abc", (2, 3, 4), strict=True)
+    }
     more = {"notes.txt": b"x", ".DS_Store": b"x", "front.png": b"x"}
-    files = write(tmp_path, {f"finds/{name}": content for name, content in {**shared, **meshes, **more}.items()})
+    files = write(
+        tmp_path, {f"finds/{name}": content for name, content in {**shared, **meshes, **more}.items()}
+    )
     with opened(browser) as page:
         page.goto(str(service.client.base_url))
         Drag(page, files / "finds").drop_to_add()
@@ -109,7 +121,9 @@ def test_a_folder_gives_a_shape_of_each_mesh_and_tells_what_it_left_out(
     assert {"b", "c"} <= found.keys()
 
 
-def test_a_hundred_and_twenty_files_are_all_sent_and_the_rows_stay_few(browser: Browser, tmp_path: Path) -> None:
+def test_a_hundred_and_twenty_files_are_all_sent_and_the_rows_stay_few(
+    browser: Browser, tmp_path: Path
+) -> None:
     files = write(tmp_path, {f"many/{number}.ply": good_mesh(number)["good.ply"] for number in range(120)})
     with serving(settings_for(tmp_path / "library", workers=0)) as idle, opened(browser) as page:
         page.goto(str(idle.client.base_url))
@@ -119,8 +133,12 @@ def test_a_hundred_and_twenty_files_are_all_sent_and_the_rows_stay_few(browser: 
         expect(rows(page).filter(has_text="waiting to be described")).to_have_count(50)
 
 
-def test_a_zip_is_added_and_a_missing_file_belongs_into_it(service: Serving, browser: Browser, tmp_path: Path) -> None:
-    files = write(tmp_path, {"whole.zip": _zipped(vase(1.6)), "part.zip": _zipped({"part.obj": textured(1.7)})})
+def test_a_zip_is_added_and_a_missing_file_belongs_into_it(
+    service: Serving, browser: Browser, tmp_path: Path
+) -> None:
+    files = write(
+        tmp_path, {"whole.zip": _zipped(vase(1.6)), "part.zip": _zipped({"part.obj": textured(1.7)})}
+    )
     with opened(browser, expected=(REFUSED,)) as page:
         page.goto(str(service.client.base_url))
         Drag(page, files / "whole.zip", files / "part.zip").drop_to_add()
@@ -157,7 +175,9 @@ def test_what_the_library_has_is_known_by_whatever_way_and_name_it_comes(
 
 def test_a_name_that_is_code_is_shown_and_not_run(service: Serving, browser: Browser, tmp_path: Path) -> None:
     name = HOSTILE.replace("‮", "")
-    files = write(tmp_path, {f"{name}.ply": good_mesh(78)["good.ply"], f"{name}.txt": b"x", f"{name}.obj": b"x"})
+    files = write(
+        tmp_path, {f"{name}.ply": good_mesh(78)["good.ply"], f"{name}.txt": b"x", f"{name}.obj": b"x"}
+    )
     with opened(browser, expected=(REFUSED,)) as page:
         page.goto(str(service.client.base_url))
         Drag(page, *files.iterdir()).drop_to_add()
@@ -191,12 +211,19 @@ def test_everything_can_be_done_by_keys(service: Serving, browser: Browser, tmp_
         expect(fold).to_have_attribute("aria-expanded", "false")
 
 
-def test_a_phone_has_the_buttons_and_the_whole_width(service: Serving, browser: Browser, tmp_path: Path) -> None:
+def test_a_phone_has_the_buttons_and_the_whole_width(
+    service: Serving, browser: Browser, tmp_path: Path
+) -> None:
     files = write(tmp_path, {"cut.ply": good_mesh(1)["good.ply"][:-40], "jug.ply": good_mesh(79)["good.ply"]})
     with opened(browser, PHONE, touch=True, expected=(REFUSED,)) as page:
         page.goto(str(service.client.base_url))
         expect(page.get_by_role("button", name="Add a folder")).to_have_count(0)
-        choose(page, page.get_by_role("button", name="Add meshes"), str(files / "cut.ply"), str(files / "jug.ply"))
+        choose(
+            page,
+            page.get_by_role("button", name="Add meshes"),
+            str(files / "cut.ply"),
+            str(files / "jug.ply"),
+        )
         expect(page.get_by_role("button", name="1 of 2 ready, 1 refused")).to_be_visible()
         assert page.locator("#adding").evaluate("dock => dock.offsetWidth") == PHONE["width"]
         assert page.evaluate("document.documentElement.scrollWidth") == PHONE["width"]
@@ -217,7 +244,9 @@ def test_the_dock_stays_while_views_change_and_hears_of_removals(
         expect(row(page, "lamp")).to_contain_text("removed from the library")
 
 
-def test_what_fails_only_later_says_why_in_the_same_row(service: Serving, browser: Browser, tmp_path: Path) -> None:
+def test_what_fails_only_later_says_why_in_the_same_row(
+    service: Serving, browser: Browser, tmp_path: Path
+) -> None:
     header, _, body = good_mesh(81)["good.ply"].partition(b"end_header\n")
     files = write(tmp_path, {"late.ply": header + b"end_header\n" + body.replace(b"4 0 2 3 1", b"4 0 2 3 9")})
     with opened(browser) as page:
@@ -236,15 +265,21 @@ def test_two_halves_are_offered_while_files_are_held_over_the_page(
         Drag(page, files / "urn.ply").over(100, 300)
         expect(page.get_by_text("Add to the library")).to_have_class("half over")
         expect(page.get_by_text("Find what is similar")).to_have_class("half")
-        expect(page.get_by_text("Add to the library")).to_be_hidden()  # the drag ended without a drop, unnoticed
+        expect(
+            page.get_by_text("Add to the library")
+        ).to_be_hidden()  # the drag ended without a drop, unnoticed
 
 
-def test_a_drop_without_a_mesh_says_what_is_needed(service: Serving, browser: Browser, tmp_path: Path) -> None:
+def test_a_drop_without_a_mesh_says_what_is_needed(
+    service: Serving, browser: Browser, tmp_path: Path
+) -> None:
     files = write(tmp_path, {"photo.png": b"x"})
     with opened(browser) as page:
         page.goto(str(service.client.base_url))
         Drag(page, files / "photo.png").drop_to_add()
-        expect(page.get_by_role("complementary")).to_contain_text("There is no mesh in it, only photo.png. Add a .ply")
+        expect(page.get_by_role("complementary")).to_contain_text(
+            "There is no mesh in it, only photo.png. Add a .ply"
+        )
 
 
 def _zipped(files: dict[str, bytes]) -> bytes:
@@ -255,8 +290,8 @@ def _zipped(files: dict[str, bytes]) -> bytes:
     return stream.getvalue()
 
 
-def _shapes(service: Serving) -> list[dict[str, object]]:
-    items: list[dict[str, object]] = service.client.get("/v1/shapes", params={"limit": 500}).json()["items"]
+def _shapes(service: Serving) -> list[dict[str, Any]]:
+    items: list[dict[str, Any]] = service.client.get("/v1/shapes", params={"limit": 500}).json()["items"]
     return items
 
 

@@ -13,7 +13,7 @@ ENTRIES = """
 const batch = 100; // no browser hands out more at once
 const fileEntry = (path) => ({
   name: path.split("/").at(-1), fullPath: path, isFile: true, isDirectory: false,
-  file: (take, refuse) => path.includes("gone") ? refuse(new Error("gone")) : take(new File(["x"], path.split("/").at(-1))),
+  file: (take, refuse) => (path.includes("gone") ? refuse(new Error("gone")) : take(new File(["x"], "x"))),
 });
 const folderEntry = (path, made) => ({
   name: path.split("/").at(-1), fullPath: path, isFile: false, isDirectory: true,
@@ -52,7 +52,9 @@ def test_a_folder_is_read_until_nothing_more_comes(page: Page) -> None:
 
 
 def test_folders_in_folders_keep_their_paths(page: Page) -> None:
-    deep = 'folderEntry("/a/b", [fileEntry("/a/b/c.obj"), folderEntry("/a/b/d", [fileEntry("/a/b/d/e.png")])])'
+    deep = (
+        'folderEntry("/a/b", [fileEntry("/a/b/c.obj"), folderEntry("/a/b/d", [fileEntry("/a/b/d/e.png")])])'
+    )
     assert gathered(page, f'[folderEntry("/a", [{deep}]), fileEntry("/f.ply")]')["files"] == [
         "a/b/c.obj",
         "a/b/d/e.png",
@@ -77,8 +79,10 @@ def test_a_chosen_folder_leaves_out_the_same(page: Page) -> None:
     paths = page.evaluate(
         """async () => {
           const { gatherList } = await import("/static/adding/gathering.js");
-          const made = (path) => Object.defineProperty(new File(["x"], path.split("/").at(-1)), "webkitRelativePath", { value: path });
-          return gatherList(["a/.git/x.ply", "a/b/mesh.ply", "a/Thumbs.db"].map(made)).files.map(({ path }) => path);
+          const named = (path) => ({ webkitRelativePath: { value: path } });
+          const made = (path) => Object.defineProperties(new File(["x"], "x"), named(path));
+          const list = ["a/.git/x.ply", "a/b/mesh.ply", "a/Thumbs.db"].map(made);
+          return gatherList(list).files.map(({ path }) => path);
         }"""
     )
     assert paths == ["a/b/mesh.ply"]

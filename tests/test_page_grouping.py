@@ -40,7 +40,8 @@ def sent_by_page(page: Page, files: dict[str, bytes]) -> dict[str, set[str]]:
         """async (packed) => {
           const { fromCommonFolder, meshesOf, poolOf, together } = await import("/static/adding/grouping.js");
           const bytes = (text) => Uint8Array.from(atob(text), (sign) => sign.charCodeAt(0));
-          const files = Object.entries(packed).map(([path, text]) => ({ path, file: new File([bytes(text)], "x") }));
+          const sent = ([path, text]) => ({ path, file: new File([bytes(text)], "x") });
+          const files = Object.entries(packed).map(sent);
           const found = {};
           for (const mesh of meshesOf(files)) {
             found[mesh.path] = fromCommonFolder(await together(mesh, poolOf(files))).map(({ path }) => path);
@@ -120,12 +121,15 @@ CASES: dict[str, dict[str, bytes]] = {
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_the_same_files_go_with_a_mesh_as_the_command_line_sends(page: Page, tmp_path: Path, case: str) -> None:
+def test_the_same_files_go_with_a_mesh_as_the_command_line_sends(
+    page: Page, tmp_path: Path, case: str
+) -> None:
     assert sent_by_page(page, CASES[case]) == sent_by_command(tmp_path, CASES[case])
 
 
 def test_a_ply_brings_the_images_that_its_header_names(page: Page) -> None:
-    ply = b"ply\nformat ascii 1.0\ncomment TextureFile my clay.png\nelement vertex 1\nend_header\ncomment TextureFile b.png\n"
+    header = b"ply\nformat ascii 1.0\ncomment TextureFile my clay.png\nelement vertex 1\nend_header\n"
+    ply = header + b"comment TextureFile b.png\n"
     files = {"in/vase.ply": ply, "in/my clay.png": png(), "in/b.png": png()}
     assert sent_by_page(page, files) == {"in/vase.ply": {"vase.ply", "my clay.png"}}
 
@@ -149,8 +153,15 @@ def test_names_are_found_across_the_pieces_of_a_long_file(page: Page) -> None:
 
 
 @slow
-@given(rest=st.lists(st.sampled_from(["-bm", "0.5", "-o", "1", "-S", "-clamp", "on", "a.png", "my", '"x y.png"', "\t"]), min_size=1))
-def test_options_before_and_after_a_name_are_read_as_the_service_reads_them(page: Page, rest: list[str]) -> None:
+@given(
+    rest=st.lists(
+        st.sampled_from(["-bm", "0.5", "-o", "1", "-S", "-clamp", "on", "a.png", "my", '"x y.png"', "\t"]),
+        min_size=1,
+    )
+)
+def test_options_before_and_after_a_name_are_read_as_the_service_reads_them(
+    page: Page, rest: list[str]
+) -> None:
     text = " ".join(rest).strip()
     if not text:
         return
@@ -163,8 +174,14 @@ PARTS = st.lists(st.sampled_from(["a", "A", "b", "..", ".", "é", "c.png", "C.PN
 
 
 @slow
-@given(names=st.sets(PARTS.map("/".join), max_size=5), reference=PARTS.map("/".join), namer=st.sampled_from(["m.obj", "a/m.obj", "a/b/m.obj"]))
-def test_names_find_the_files_that_the_service_would_find(page: Page, names: set[str], reference: str, namer: str) -> None:
+@given(
+    names=st.sets(PARTS.map("/".join), max_size=5),
+    reference=PARTS.map("/".join),
+    namer=st.sampled_from(["m.obj", "a/m.obj", "a/b/m.obj"]),
+)
+def test_names_find_the_files_that_the_service_would_find(
+    page: Page, names: set[str], reference: str, namer: str
+) -> None:
     plain = [name for name in names if not {"..", "."} & set(name.split("/"))]
     try:
         expected = SentFiles(dict.fromkeys(plain, b"")).find(reference, namer)
@@ -178,8 +195,26 @@ def test_names_find_the_files_that_the_service_would_find(page: Page, names: set
 
 
 @slow
-@given(lines=st.lists(st.sampled_from(["mtllib a.mtl", " mtllib b c.mtl ", "mtllib", "xmtllib d.mtl", "# mtllib e", "mtllibx f", "v 0 0 mtllib", "\tmtllib\tg"])))
+@given(
+    lines=st.lists(
+        st.sampled_from(
+            [
+                "mtllib a.mtl",
+                " mtllib b c.mtl ",
+                "mtllib",
+                "xmtllib d.mtl",
+                "# mtllib e",
+                "mtllibx f",
+                "v 0 0 mtllib",
+                "\tmtllib\tg",
+            ]
+        )
+    )
+)
 def test_lines_that_name_material_files_are_told_from_others(page: Page, lines: list[str]) -> None:
     text = "\n".join(lines)
-    script = 'async (text) => (await (await import("/static/adding/scanning.js")).scanObj(new Blob([text]))).libraries'
+    script = """async (text) => {
+      const { scanObj } = await import("/static/adding/scanning.js");
+      return (await scanObj(new Blob([text]))).libraries;
+    }"""
     assert page.evaluate(script, text) == named_libraries((text + "\n").encode())
