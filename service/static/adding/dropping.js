@@ -10,7 +10,7 @@ let overlay, timer;
 /**
  * Watch for drops anywhere on the page.
  *
- * @param {(entries: object[], purpose: "add" | "find" | number) => void} onDrop - a number: of the upload whose row it is
+ * @param {(entries: object[], purpose: "add" | "find" | number) => void} onDrop - a number: of the upload on whose row
  */
 export function watchDrops(onDrop) {
   overlay = made();

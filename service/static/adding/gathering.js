@@ -15,7 +15,8 @@ export function entriesOf(transfer) {
 }
 
 /** Wrap a file that belongs to no folder, such as one that is pasted. */
-const plain = (file) => file && { name: file.name, fullPath: `/${file.name}`, isFile: true, file: (take) => take(file) };
+const plain = (file) =>
+  file && { name: file.name, fullPath: `/${file.name}`, isFile: true, file: (found) => found(file) };
 
 /**
  * Walk through folders.

@@ -42,7 +42,8 @@ async function companionsOfObj(mesh, pool) {
   const images = new Map();
   for (const library of found) {
     for (const [material, image] of imagesByMaterial(await library.file.arrayBuffer())) {
-      if (materials.has(material) && !images.has(material)) images.set(material, image && pool.find(image, library.path));
+      if (!materials.has(material) || images.has(material)) continue;
+      images.set(material, image && pool.find(image, library.path));
     }
   }
   return [...found, ...images.values()];

@@ -61,7 +61,8 @@ async function takeWithoutMesh(files) {
 
 function tellLeftOut({ hidden, unreadable, files }) {
   if (hidden) note(`${leftOut(hidden)}: systems add such by themselves.`);
-  if (unreadable.length) note(`${many(unreadable.length, "file")} could not be read: ${namesOf(unreadable.map((path) => ({ path })))}.`);
+  const lost = unreadable.map((path) => ({ path }));
+  if (lost.length) note(`${many(lost.length, "file")} could not be read: ${namesOf(lost)}.`);
   if (!hidden && !unreadable.length && !files.length) note("There is no file in it.");
 }
 

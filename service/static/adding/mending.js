@@ -16,7 +16,8 @@ import { change, uploads } from "./uploads.js";
 export async function mend(upload, files) {
   const before = new Set(upload.files.map(({ file }) => file));
   const names = new Set(files.map(({ path }) => baseOf(path).toLowerCase()));
-  const kept = upload.pool.files.filter(({ path }) => !names.has(baseOf(path).toLowerCase())); // newer ones take their place
+  // what has a name again is replaced
+  const kept = upload.pool.files.filter(({ path }) => !names.has(baseOf(path).toLowerCase()));
   upload.pool = new Pool([...kept, ...files]);
   await upload.gather();
   const helped = upload.files.some(({ file }) => !before.has(file));
@@ -31,7 +32,8 @@ export async function mend(upload, files) {
 export async function mendWith(upload, files) {
   if (!files.length || (await mend(upload, files))) return;
   const names = files.slice(0, 3).map(({ path }) => `“${baseOf(path)}”`).join(", ");
-  change(upload, { note: `The mesh does not name ${names}. Give the file the name that is asked for, or choose another.` });
+  const advice = "Give the file the name that is asked for, or choose another.";
+  change(upload, { note: `The mesh does not name ${names}. ${advice}` });
 }
 
 /** Add files to whatever waits for one of them. */

@@ -58,9 +58,11 @@ function fold() {
 /** "12 of 40 ready, 2 refused". */
 function summary(all) {
   if (!all.length) return "Nothing was added";
-  const done = all.filter(isFinished).length, refused = all.filter(({ state }) => state === "refused").length;
+  const done = all.filter(isFinished).length;
+  const refused = all.filter(({ state }) => state === "refused").length;
   const only = all.every(({ purpose }) => purpose === "find");
-  return `${count(done)} of ${count(all.length)} ${only ? "compared" : "ready"}${refused ? `, ${count(refused)} refused` : ""}`;
+  const failed = refused ? `, ${count(refused)} refused` : "";
+  return `${count(done)} of ${count(all.length)} ${only ? "compared" : "ready"}${failed}`;
 }
 
 function overall(all) {
@@ -81,10 +83,16 @@ function rows(all) {
 function holding() {
   const { problem, until } = hold;
   const { title, action } = inWords(problem);
-  const seconds = until && Math.max(Math.ceil((until - Date.now()) / 1000), 0);
+  const seconds = Math.max(Math.ceil((until - Date.now()) / 1000), 0);
+  const more = until ? `Next try in ${seconds} s.` : problem.message;
   const key = ["unauthorised", "read_only_key"].includes(problem.code);
-  return html`<div class="note why"><p><strong>${title}.</strong> ${action} ${until ? `Next try in ${seconds} s.` : problem.message} <code>${problem.code}</code></p>
-    <p class="row">${key ? html`<button @click=${enterKey}>Enter a key</button>` : ""}<button class="strong" @click=${goOn}>${until ? "Try now" : "Go on"}</button></p></div>`;
+  return html`<div class="note why">
+    <p><strong>${title}.</strong> ${action} ${more} <code>${problem.code}</code></p>
+    <p class="row">
+      ${key ? html`<button @click=${enterKey}>Enter a key</button>` : ""}
+      <button class="strong" @click=${goOn}>${until ? "Try now" : "Go on"}</button>
+    </p>
+  </div>`;
 }
 
 /** Let the view ask for it: it is drawn anew, and refused for want of one. */

@@ -102,14 +102,16 @@ async function react(upload, error) {
 async function whyBroken(upload, error) {
   for (const { path: name, file } of upload.files) {
     if (!(await isReadable(file))) {
-      return new Problem(-1, { code: "file_gone", detail: `“${name}” cannot be read any more: it was moved or changed.` });
+      const detail = `“${name}” cannot be read any more: it was moved or changed.`;
+      return new Problem(-1, { code: "file_gone", detail });
     }
   }
   const there = await fetch("/livez").then((answer) => answer.ok, () => false);
   upload.broken += there ? 1 : 0;
   if (!there || upload.broken < TRIES) return new Problem(0, { detail: there ? "The connection broke." : undefined });
   if (error.status !== 0) return error;
-  return new Problem(-1, { code: "broken_connection", detail: `The connection broke ${TRIES} times while this was sent.` });
+  const detail = `The connection broke ${TRIES} times while this was sent.`;
+  return new Problem(-1, { code: "broken_connection", detail });
 }
 
 const isReadable = (file) => file.slice(0, 1).arrayBuffer().then(() => true, () => false);

@@ -30,13 +30,15 @@ export function row(upload) {
       <p class="name">${titleOf(upload)}</p>
       ${upload.state === "refused" ? refusal(upload) : progress(upload)}
     </div>
-    <button class="away" aria-label="${UNSENT.has(upload.state) ? "Cancel" : "Take off this list:"} ${upload.name}" @click=${() => cancel(upload)}>×</button>
+    <button class="away" aria-label="${UNSENT.has(upload.state) ? "Cancel" : "Take off this list:"} ${upload.name}"
+      @click=${() => cancel(upload)}>×</button>
   </li>`;
 }
 
 function sight({ state, shape }) {
-  if (shape?.status === "ready" && state !== "removed") return picture(`/v1/shapes/${encodeURIComponent(shape.id)}`, "3rem");
-  return html`<span class="sign" aria-hidden="true">${state === "refused" ? "!" : state === "answered" ? "≈" : ""}</span>`;
+  const there = shape?.status === "ready" && state !== "removed";
+  if (there) return picture(`/v1/shapes/${encodeURIComponent(shape.id)}`, "3rem");
+  return html`<span class="sign" aria-hidden="true">${{ refused: "!", answered: "≈" }[state] ?? ""}</span>`;
 }
 
 function titleOf({ name, shape, state }) {
@@ -50,7 +52,8 @@ function progress(upload) {
     const share = Math.floor(100 * sent);
     return html`<progress max="100" .value=${share} aria-label="Sending ${name}"></progress><p>sending, ${share} %</p>`;
   }
-  const busy = FOLLOWED.has(state) || state === "describing" ? html`<progress aria-label="${name}: ${STATES[state]}"></progress>` : "";
+  const goesOn = FOLLOWED.has(state) || state === "describing";
+  const busy = goesOn ? html`<progress aria-label="${name}: ${STATES[state]}"></progress>` : "";
   const as = state === "known" && shape.name !== name ? ` as “${shape.name}”` : "";
   return html`${busy}<p>${STATES[state]}${as}</p>${answer(upload)}`;
 }
@@ -60,8 +63,9 @@ function answer(upload) {
   if (upload.state !== "answered") return "";
   if (upload.query !== null) return html`<p><a href=${addressOf(upload)}>See what is similar</a></p>`;
   if (!upload.results.length) return html`<p>There is nothing to compare it with yet.</p>`;
-  return html`<p>The service could not keep the question for a page of its own (its disk may be full). Most similar first:</p>
-    <ol>${upload.results.map(({ shape }) => html`<li><a href="#/shapes/${encodeURIComponent(shape.id)}">${shape.name}</a></li>`)}</ol>`;
+  const found = ({ id, name }) => html`<li><a href="#/shapes/${encodeURIComponent(id)}">${name}</a></li>`;
+  return html`<p>The service could not keep the question (its disk may be full), so the answer is here:</p>
+    <ol>${upload.results.map(({ shape }) => found(shape))}</ol>`;
 }
 
 function refusal(upload) {
@@ -73,8 +77,10 @@ function refusal(upload) {
 }
 
 const BUTTONS = {
-  file: (upload) => html`<button class="strong" @click=${() => addFile(upload)}>${upload.problem.code.includes("image") ? "Add the mended image" : "Add the missing file"}</button>`,
-  untextured: (upload) => html`<button @click=${() => withoutTexture(upload)}>${upload.purpose === "find" ? "Compare" : "Add"} without its texture</button>`,
+  file: (upload) => html`<button class="strong" @click=${() => addFile(upload)}>
+    ${upload.problem.code.includes("image") ? "Add the mended image" : "Add the missing file"}</button>`,
+  untextured: (upload) => html`<button @click=${() => withoutTexture(upload)}>
+    ${upload.purpose === "find" ? "Compare" : "Add"} without its texture</button>`,
   again: (upload) => html`<button @click=${() => again(upload)}>Try again</button>`,
 };
 
