@@ -5,7 +5,7 @@ import { say } from "../shared/said.js";
 import { count, many } from "../shared/words.js";
 import { forgetKey } from "../shared/key.js";
 import { goOn, hold } from "./queue.js";
-import { inWords } from "./refusals.js";
+import { inWords, remediesOf } from "./refusals.js";
 import { row } from "./row.js";
 import { FOLLOWED, UNSENT, allNotes, clearFinished, isFinished, uploads, watch } from "./uploads.js";
 
@@ -71,9 +71,10 @@ function overall(all) {
   return html`<progress class="overall" max=${all.length} .value=${done} aria-label="All uploads"></progress>`;
 }
 
-/** Those refused first, for they need somebody, then those that changed last. */
+/** Those refused first, what can be mended here before what cannot, then those that changed last. */
 function rows(all) {
-  const refused = all.filter(({ state }) => state === "refused");
+  const refused = all.filter(({ state }) => state === "refused")
+    .sort((one, other) => remediesOf(other).length - remediesOf(one).length);
   const others = all.filter(({ state }) => state !== "refused").sort((one, other) => other.changed - one.changed);
   const shown = [...refused.slice(0, MOST), ...others.slice(0, MOST).sort((one, other) => other.number - one.number)];
   return html`<ul>${repeat(shown, ({ number }) => number, row)}</ul>
@@ -84,8 +85,9 @@ function holding() {
   const { problem, until } = hold;
   const { title, action } = inWords(problem);
   const seconds = Math.max(Math.ceil((until - Date.now()) / 1000), 0);
-  const more = until ? `Next try in ${seconds} s.` : problem.message;
   const key = ["unauthorised", "read_only_key"].includes(problem.code);
+  // of keys the service tells how programs send them
+  const more = until ? `Next try in ${seconds} s.` : key ? "" : problem.message;
   return html`<div class="note why">
     <p><strong>${title}.</strong> ${action} ${more} <code>${problem.code}</code></p>
     <p class="row">

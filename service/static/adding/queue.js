@@ -2,7 +2,7 @@
 
 import { Problem, path } from "../shared/api.js";
 import { answered } from "./answering.js";
-import { follow } from "./following.js";
+import { follow, startFollowing } from "./following.js";
 import { formOf, send } from "./sending.js";
 import { change, drop, isListed, tell } from "./uploads.js";
 
@@ -44,6 +44,7 @@ export function cancel(upload) {
 export function goOn() {
   clearTimeout(timer);
   hold = null;
+  startFollowing(); // a stream that was refused for want of a key
   tell();
   next();
 }
