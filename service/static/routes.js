@@ -8,6 +8,7 @@ const ROUTES = [
   [/^\/jobs$/, "#/jobs", async (context) => (await import("./jobs/view.js")).showJobs(context)],
   [/^\/shapes\/([^/]+)$/, "#/", async (context) => (await import("./answer/view.js")).showAnswer({ ...context, kind: "shapes" })],
   [/^\/queries\/([^/]+)$/, "#/", async (context) => (await import("./answer/view.js")).showAnswer({ ...context, kind: "queries" })],
+  [/^\/shapes\/([^/]+)\/details$/, "#/", async (context) => (await import("./shape/view.js")).showShape(context)],
 ];
 
 /**

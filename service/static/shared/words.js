@@ -19,6 +19,9 @@ export function duration(seconds) {
   return seconds < 5400 ? `${Math.round(seconds / 60)} min` : `${Math.round(seconds / 3600)} h`;
 }
 
+/** A time as people write it: "3 March 2026 at 09:30", where they are. */
+export const moment = (time) => new Date(time).toLocaleString("en-GB", { dateStyle: "long", timeStyle: "short" });
+
 export const STATES = { queued: "waiting", processing: "being described", ready: "ready", failed: "failed" };
 
 export const RELATIONS = {
