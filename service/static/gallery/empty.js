@@ -1,7 +1,7 @@
 // What stands in the place of cards, or above them, where there is little to see.
 
 import { html } from "../vendor/lit-html.js";
-import { count } from "../shared/words.js";
+import { STATES, count } from "../shared/words.js";
 import { isFiltered } from "./filters.js";
 
 /** An empty shelf: a library to begin, or filters that nothing passes. */
@@ -19,7 +19,7 @@ export function empty(filters, clear) {
 }
 
 function asked({ q, tags, status }) {
-  const parts = [q && `“${q}” in its name or metadata`, ...tags.map((tag) => `the tag “${tag}”`), status && "the chosen state"];
+  const parts = [q && `“${q}” in its name or metadata`, ...tags.map((tag) => `the tag “${tag}”`), status && `the state “${STATES[status]}”`];
   return parts.filter(Boolean).join(", ");
 }
 
