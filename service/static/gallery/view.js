@@ -124,12 +124,12 @@ class Gallery {
     const { shelf, filters, known } = this;
     if (shelf.arrived.length && shelf.y < TOP) shelf.show();
     render(sheets(shelf.items), shelf.element);
-    const bare = shelf.done && !shelf.items.length;
-    const begun = shelf.items.length || isFiltered(filters);
+    const bare = shelf.done && !shelf.items.length; // the shelf's own filters: another one may be on its way
+    const begun = shelf.items.length || isFiltered(shelf.filters);
     render(html`<div class="title"><h1>Library</h1><p class="soft">${known.counts && !(bare && !begun) ? sentence(known.counts, filters) : ""}</p></div>
       ${begun ? toolbar(filters, known, (part, typed) => this.change(part, typed)) : ""}
       ${known.counts ? beginning(known.counts.all) : ""} ${this.news()}
-      ${bare ? empty(filters, () => this.clear()) : ""}
+      ${bare ? empty(shelf.filters, () => this.clear()) : ""}
       ${shelf.element} ${ending(shelf, () => this.more())}`, this.root);
     this.lookAtEnd();
   }
