@@ -20,7 +20,7 @@ from service.library import Library
 from service.quantisation import quantise
 from service.samples import make_samples
 from service.settings import Settings
-from service.storage import save_signatures
+from service.storage import THUMBNAIL, derived_key, save_signatures
 from service.vocabularies import active_vocabulary
 from worker.arrays import SingleArray
 from worker.describe import Description, describe
@@ -28,7 +28,7 @@ from worker.reading.upload import Upload
 
 DESCRIBED = 4  # creatures
 APART = 4  # poses of a creature: every fourth sample is another one
-WITH_FILES = 100  # shapes that have their signatures, and may be queries
+WITH_FILES = 100  # shapes that have their signatures, and may be queries; as many have their pictures
 NOISE = 0.02  # relative, of each number
 
 Blocks = Mapping[str, SingleArray]
@@ -57,6 +57,8 @@ def make_library(folder: Path, n_shapes: int) -> list[str]:
             )
             if number < WITH_FILES:
                 save_signatures(library.files, shape_id, described[one].signatures)
+            if number >= n_shapes - WITH_FILES:  # the newest, which are seen first
+                library.files.put(derived_key(shape_id, THUMBNAIL), described[one].thumbnail)
     library.close()
     return ids
 

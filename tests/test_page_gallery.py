@@ -2,6 +2,8 @@
 
 from collections.abc import Iterator
 from itertools import count
+from pathlib import Path
+from typing import Any
 
 import pytest
 from playwright.sync_api import Browser, Page, Route, expect
@@ -13,6 +15,7 @@ from tests.fakes import coloured_triangle
 from tests.serving import Serving, serving, settings_for
 
 SHAPES = 150
+ICON = Path(__file__).parents[1] / "service" / "static" / "icon.svg"
 HOSTILE = "<img src=x onerror=alert(1)> خزف " + "long" * 100
 
 
@@ -35,6 +38,12 @@ def _open(page: Page, service: Serving, address: str = "") -> None:
 def _names(page: Page) -> list[str]:
     names: list[str] = page.locator(".card .name").evaluate_all("all => all.map(one => one.textContent)")
     return names
+
+
+def _ready(service: Serving) -> list[dict[str, Any]]:
+    """Return shapes as if they were described."""
+    items = service.client.get("/v1/shapes", params={"limit": 20}).json()["items"]
+    return [{**shape, "status": "ready", "mesh": {"faces": 2}} for shape in items]
 
 
 def _scroll_to_the_end(page: Page) -> None:
@@ -127,3 +136,22 @@ def test_the_gallery_is_accessible(service: Serving, browser: Browser, phone: bo
         expect(page.locator(".title")).to_contain_text("149 of 150 shapes match")
         assert_accessible(page)
         assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+
+
+@pytest.mark.parametrize("ratio", [1, 2])
+@pytest.mark.parametrize("width", [390, 1280])
+def test_no_thumbnail_is_wider_than_it_needs(service: Serving, browser: Browser, width: int, ratio: int) -> None:
+    """The width that is asked for is the smallest of those on offer that fills the place, or the largest."""
+    context = browser.new_context(viewport={"width": width, "height": 800}, device_scale_factor=ratio)
+    page = context.new_page()
+    page.route("**/thumbnail.png*", lambda route: route.fulfill(path=ICON))
+    page.route("**/v1/shapes?*", lambda route: route.fulfill(json={"items": _ready(service), "next_cursor": None}))
+    _open(page, service)
+    pictures = page.locator(".card img")
+    expect(pictures.first).to_have_js_property("complete", True)
+    shown = pictures.evaluate_all("all => all.slice(0, 8).map(one => [one.currentSrc, Math.min(one.clientWidth, one.clientHeight)])")
+    context.close()
+    for address, place in shown:
+        asked = int(address.rpartition("=")[2])
+        enough = [one for one in (96, 160, 256) if one >= place * ratio]
+        assert asked == (enough[0] if enough else 256), (address, place)

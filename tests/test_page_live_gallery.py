@@ -67,7 +67,7 @@ def test_new_shapes_announce_themselves_to_who_looks_at_others(waiting: Serving,
     with opened(browser) as page:
         _open(page, waiting)
         page.evaluate("scrollTo(0, 600)")
-        page.wait_for_function("scrollY === 600")
+        page.wait_for_function("() => scrollY === 600")
         seen = page.get_by_role("link", name="shape 02").bounding_box()
         for number in range(3):
             waiting.add({"a.ply": coloured_triangle(100 + number)}, wait=0, name=f"new {number}")

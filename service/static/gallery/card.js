@@ -4,7 +4,7 @@ import { html } from "../vendor/lit-html.js";
 import { picture } from "../shared/picture.js";
 import { STATES, count } from "../shared/words.js";
 
-export const CARD_WIDTH = "(max-width: 30rem) 42vw, 9.5rem"; // of its picture, see styles/base.css
+export const CARD_WIDTH = "(max-width: 30rem) calc(50vw - 2.5rem), 9.5rem"; // of its picture, see styles/base.css
 
 /** What a card says below the name. */
 export function noteOf(shape) {

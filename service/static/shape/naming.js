@@ -16,7 +16,7 @@ function title(panel) {
 
 /** Once the form is gone, who used the keyboard goes on from its button. */
 const focusAfter = (panel) => (button) => {
-  if (button && panel.renamed) button.focus();
+  if (button && panel.renamed) queueMicrotask(() => button.focus()); // when it is in the page
   if (button) panel.renamed = false;
 };
 
@@ -35,4 +35,8 @@ function form(panel) {
   </form>`;
 }
 
-const selectAtFirst = (input) => input && queueMicrotask(() => input.select());
+const selectAtFirst = (input) =>
+  input && queueMicrotask(() => {
+    input.focus();
+    input.select();
+  });
