@@ -85,7 +85,9 @@ def _wait_until_seen(page: Page, n_shapes: int) -> None:
     """Wait for every picture in view, and for what is asked for after them."""
     if n_shapes:
         expect(page.locator(".card").first).to_be_visible()
-        page.wait_for_function("() => [...document.querySelectorAll('.card img[loading=eager]')].every((one) => one.complete)")
+        page.wait_for_function(
+            "() => [...document.querySelectorAll('.card img[loading=eager]')].every((one) => one.complete)"
+        )
     else:
         expect(page.get_by_role("heading", name="Nothing is here yet")).to_be_visible()
     page.wait_for_timeout(SETTLED)

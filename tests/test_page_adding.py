@@ -263,8 +263,8 @@ def test_two_halves_are_offered_while_files_are_held_over_the_page(
     with opened(browser) as page:
         page.goto(str(service.client.base_url))
         Drag(page, files / "urn.ply").over(100, 300)
-        expect(page.get_by_text("Add to the library")).to_have_class("half over")
-        expect(page.get_by_text("Find what is similar")).to_have_class("half")
+        expect(page.get_by_text("Add to the library")).to_have_class("choice over")
+        expect(page.get_by_text("Find what is similar")).to_have_class("choice")
         expect(
             page.get_by_text("Add to the library")
         ).to_be_hidden()  # the drag ended without a drop, unnoticed

@@ -22,7 +22,9 @@ def test_an_empty_library_says_what_to_do_first(tmp_path: Path, browser: Browser
         assert_accessible(page)
 
 
-@pytest.mark.parametrize(("number", "words"), [(1, "The shape is still being described"), (2, "All 2 shapes are")])
+@pytest.mark.parametrize(
+    ("number", "words"), [(1, "The shape is still being described"), (2, "All 2 shapes are")]
+)
 def test_a_library_that_is_still_described_says_so(
     tmp_path: Path, browser: Browser, number: int, words: str
 ) -> None:

@@ -59,7 +59,9 @@ def test_scrolling_shows_every_shape_once_and_stops(service: Serving, browser: B
         _open(page, service)
         assert len(_names(page)) < SHAPES
         _scroll_to_the_end(page)
-        assert sorted(_names(page)) == sorted([HOSTILE, *(f"shape {number:03}" for number in range(SHAPES - 1))])
+        assert sorted(_names(page)) == sorted(
+            [HOSTILE, *(f"shape {number:03}" for number in range(SHAPES - 1))]
+        )
         expect(page.get_by_role("button", name="Show more")).to_have_count(0)
 
 
@@ -140,16 +142,22 @@ def test_the_gallery_is_accessible(service: Serving, browser: Browser, phone: bo
 
 @pytest.mark.parametrize("ratio", [1, 2])
 @pytest.mark.parametrize("width", [390, 1280])
-def test_no_thumbnail_is_wider_than_it_needs(service: Serving, browser: Browser, width: int, ratio: int) -> None:
+def test_no_thumbnail_is_wider_than_it_needs(
+    service: Serving, browser: Browser, width: int, ratio: int
+) -> None:
     """The width that is asked for is the smallest of those on offer that fills the place, or the largest."""
     context = browser.new_context(viewport={"width": width, "height": 800}, device_scale_factor=ratio)
     page = context.new_page()
     page.route("**/thumbnail.png*", lambda route: route.fulfill(path=ICON))
-    page.route("**/v1/shapes?*", lambda route: route.fulfill(json={"items": _ready(service), "next_cursor": None}))
+    page.route(
+        "**/v1/shapes?*", lambda route: route.fulfill(json={"items": _ready(service), "next_cursor": None})
+    )
     _open(page, service)
     pictures = page.locator(".card img")
     expect(pictures.first).to_have_js_property("complete", True)
-    shown = pictures.evaluate_all("all => all.slice(0, 8).map(one => [one.currentSrc, Math.min(one.clientWidth, one.clientHeight)])")
+    shown = pictures.evaluate_all(
+        "all => all.slice(0, 8).map(one => [one.currentSrc, Math.min(one.clientWidth, one.clientHeight)])"
+    )
     context.close()
     for address, place in shown:
         asked = int(address.rpartition("=")[2])

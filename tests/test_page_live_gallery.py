@@ -13,7 +13,12 @@ from tests.serving import Serving, serving, settings_for
 from tests.small_library import good_mesh, open_small_library
 
 FIRST = 30  # shapes that are there before
-FLAT = {"flat.ply": coloured_triangle().replace(b"1 0 0", b"0 0 0").replace(b"0 1 0", b"0 0 0").replace(b"0 0 1", b"0 0 0")}
+FLAT = {
+    "flat.ply": coloured_triangle()
+    .replace(b"1 0 0", b"0 0 0")
+    .replace(b"0 1 0", b"0 0 0")
+    .replace(b"0 0 1", b"0 0 0")
+}
 
 
 @pytest.fixture
@@ -102,7 +107,9 @@ def test_filters_hold_for_what_changes(waiting: Serving, browser: Browser) -> No
         expect(page.locator(".card")).to_have_count(0)
 
 
-def test_what_changed_while_another_page_was_shown_is_there_afterwards(waiting: Serving, browser: Browser) -> None:
+def test_what_changed_while_another_page_was_shown_is_there_afterwards(
+    waiting: Serving, browser: Browser
+) -> None:
     shape = waiting.client.get("/v1/shapes", params={"q": "shape 29"}).json()["items"][0]
     with opened(browser) as page:
         _open(page, waiting)

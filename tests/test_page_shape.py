@@ -39,7 +39,9 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Serving]:
 @pytest.fixture
 def shape(service: Serving) -> Iterator[dict[str, Any]]:
     """A shape of its own for each test."""
-    metadata = '{"tags": ["vase"], "room": "12 <b>", "on show": true, "loans": ["Paris", 2], "size": {"h": 3}}'
+    metadata = (
+        '{"tags": ["vase"], "room": "12 <b>", "on show": true, "loans": ["Paris", 2], "size": {"h": 3}}'
+    )
     added = service.add(good_mesh(1), name="amphora", metadata=metadata).json()
     yield added
     service.client.delete(f"/v1/shapes/{added['id']}")
@@ -70,7 +72,9 @@ def test_what_is_known_is_told_in_words(service: Serving, shape: dict[str, Any],
         assert Path(download.value.path()).read_bytes() == good_mesh(1)["good.ply"]
 
 
-def test_a_shape_is_renamed_by_the_keyboard(service: Serving, shape: dict[str, Any], browser: Browser) -> None:
+def test_a_shape_is_renamed_by_the_keyboard(
+    service: Serving, shape: dict[str, Any], browser: Browser
+) -> None:
     with opened(browser) as page:
         _open(page, service, shape)
         page.get_by_role("button", name="Rename").focus()
@@ -133,7 +137,9 @@ def test_a_failed_shape_tells_why_and_is_tried_again(service: Serving, browser: 
         with page.expect_response("**/retry") as answer:
             page.get_by_role("button", name="Try again").click()
         assert answer.value.status == 202
-        expect(page.get_by_role("heading", name="Why it failed")).to_be_visible()  # once more, told by the stream
+        expect(
+            page.get_by_role("heading", name="Why it failed")
+        ).to_be_visible()  # once more, told by the stream
 
 
 def test_what_changes_elsewhere_is_told(service: Serving, shape: dict[str, Any], browser: Browser) -> None:
@@ -159,7 +165,8 @@ def test_who_may_only_look_is_told_so_in_the_services_words(tmp_path: Path, brow
             page.get_by_role("button", name="Remove…").click()
             page.get_by_role("button", name="Remove it").click()
             refusal = service.client.delete(
-                f"/v1/shapes/{shape['id']}", headers={"authorization": f"Bearer {secret}"}).json()
+                f"/v1/shapes/{shape['id']}", headers={"authorization": f"Bearer {secret}"}
+            ).json()
             expect(page.get_by_role("alert")).to_contain_text(refusal["detail"])
             expect(page.get_by_role("alert")).to_contain_text(refusal["code"])
             with page.expect_download() as download:

@@ -59,4 +59,4 @@ def test_it_takes_fewer_bytes() -> None:
     random = np.random.default_rng(0)
     noisy = disc(256)
     noisy[..., :3] = np.clip(noisy[..., :3] * random.uniform(0.7, 1, (256, 256, 1)), 0, 255)
-    assert len(smaller(png(noisy), 160)) < len(png(noisy)) / 3
+    assert len(smaller(png(noisy), 160)) < len(png(noisy)) / 2

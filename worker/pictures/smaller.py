@@ -4,8 +4,6 @@ import io
 
 from PIL import Image
 
-COLOURS = 192  # of the palette; thumbnails are smooth shades of few colours
-
 
 def smaller(png: bytes, width: int) -> bytes:
     """Return a square PNG with a transparent background in another width.
@@ -28,5 +26,5 @@ def smaller(png: bytes, width: int) -> bytes:
     # averages of colours count by opacity: what is transparent is black underneath
     small = picture.convert("RGBa").resize((width, height), Image.Resampling.LANCZOS).convert("RGBA")
     file = io.BytesIO()
-    small.quantize(COLOURS, Image.Quantize.FASTOCTREE).save(file, "PNG")
+    small.save(file, "PNG")
     return file.getvalue()

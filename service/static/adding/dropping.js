@@ -37,8 +37,8 @@ function made() {
   const element = document.createElement("div");
   element.className = "dropping";
   element.hidden = true;
-  element.innerHTML = `<p class="half" data-purpose="add">Add to the library</p>
-    <p class="half" data-purpose="find">Find what is similar</p>`;
+  element.innerHTML = `<p class="choice" data-purpose="add">Add to the library</p>
+    <p class="choice" data-purpose="find">Find what is similar</p>`;
   return element;
 }
 
