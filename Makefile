@@ -1,5 +1,5 @@
 # Every command sets up what it needs; `make setup` alone prepares .venv.
-.PHONY: setup run test check soak lock vocabulary vendor picture evaluation choices relations bench
+.PHONY: setup run test check soak lock vocabulary vendor picture screenshots evaluation choices relations bench
 VENV := .venv
 PYTHON := $(VENV)/bin/python
 STAMP := $(VENV)/.complete
@@ -44,6 +44,10 @@ vendor:
 # Draws the picture of the README.
 picture: setup
 	$(PYTHON) -m benchmarks.picture
+
+# Draws the pictures of the page in the README, in the system's Chromium.
+screenshots: setup
+	$(PYTHON) -m benchmarks.screenshots
 
 # Measures every method on a folder of shapes and poses, and fills the tables of docs/evaluation.md: make evaluation DATA=folder
 evaluation: setup

@@ -57,7 +57,7 @@ def timed(*command: str | Path) -> tuple[float, float, float]:
     """Run a command; return its seconds, those of a processor, and the largest memory it had, in MB."""
     os.sync()
     start, busy, largest = time.perf_counter(), _busy_seconds(), 0.0
-    with subprocess.Popen([*map(str, command)], stdout=subprocess.DEVNULL) as process:  # noqa: S603 - ours
+    with subprocess.Popen([*map(str, command)], stdout=subprocess.DEVNULL) as process:
         while process.poll() is None:
             largest = max(largest, _largest_memory(process.pid))
             time.sleep(0.01)

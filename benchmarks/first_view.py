@@ -31,9 +31,9 @@ def rows(n_shapes: int = SHAPES, n_visits: int = VISITS) -> list[Row]:
     Returns
     -------
     list of mapping
-        Milliseconds but for the counts. `server` is the processor time of the whole process, `requests` the time
-        that requests took by its own /metrics; `script` and `all tasks` are what Chromium tells of the page: tasks
-        are scripts, style, layout and painting.
+        Milliseconds but for the counts. `server` is the processor time of the whole process, `requests` the
+        time that requests took by its own /metrics; `script` and `all tasks` are what Chromium tells of the
+        page: tasks are scripts, style, layout and painting.
     """
     executable = chromium_path()
     if executable is None:

@@ -7,14 +7,12 @@ from playwright.sync_api import Browser, expect
 
 from tests.accessible import assert_accessible
 from tests.browsing import opened
-from tests.counted_pages import count_for
 from tests.fakes import coloured_triangle
 from tests.serving import serving, settings_for
 
 
 def test_an_empty_library_says_what_to_do_first(tmp_path: Path, browser: Browser) -> None:
     with serving(settings_for(tmp_path, workers=0)) as service, opened(browser) as page:
-        count_for(page, service)
         page.goto(str(service.client.base_url))
         expect(page.get_by_role("heading", name="Nothing is here yet")).to_be_visible()
         expect(page.get_by_text("faience index scans/")).to_be_visible()
@@ -31,7 +29,6 @@ def test_a_library_that_is_still_described_says_so(
     with serving(settings_for(tmp_path, workers=0)) as service, opened(browser) as page:
         for each in range(number):
             service.add({"a.ply": coloured_triangle(each)}, wait=0)
-        count_for(page, service)
         page.goto(str(service.client.base_url))
         expect(page.get_by_text(words)).to_be_visible()
         expect(page.locator(".card")).to_have_count(number)

@@ -7,7 +7,6 @@ from playwright.sync_api import Browser, expect
 
 from service.jobs.describing import describe_files
 from tests.browsing import opened
-from tests.counted_pages import count_for
 from tests.serving import Serving, serving, settings_for
 from tests.small_library import good_mesh, open_small_library
 
@@ -22,7 +21,6 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Serving]:
 def test_the_library_is_shown_by_pictures(service: Serving, browser: Browser) -> None:
     service.add(good_mesh(0), name="amphora")
     with opened(browser) as page:
-        count_for(page, service)
         page.goto(str(service.client.base_url))
         expect(page.get_by_role("link", name="amphora")).to_be_visible()
         picture = page.locator(".card img")
@@ -33,7 +31,6 @@ def test_the_library_is_shown_by_pictures(service: Serving, browser: Browser) ->
 def test_the_page_names_the_modules_of_its_first_view(service: Serving, browser: Browser) -> None:
     """They are asked for at once instead of one after another; what is not in the first view waits."""
     with opened(browser) as page:
-        count_for(page, service)
         with page.expect_response("**/v1/events"):
             page.goto(str(service.client.base_url))
         named = page.locator("link[rel=modulepreload]").evaluate_all("all => all.map(({href}) => href)")

@@ -7,7 +7,6 @@ from playwright.sync_api import Browser, Page, expect
 
 from service.jobs.describing import describe_files
 from tests.browsing import opened
-from tests.counted_pages import count_for
 from tests.fakes import coloured_triangle
 from tests.serving import Serving, serving, settings_for
 from tests.small_library import good_mesh, open_small_library
@@ -39,7 +38,6 @@ def waiting(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Serving]:
 
 def _open(page: Page, service: Serving, address: str = "") -> None:
     """Open the gallery; return when it hears of changes."""
-    count_for(page, service)
     with page.expect_response("**/v1/events"):
         page.goto(f"{service.client.base_url}{address}")
     page.wait_for_timeout(300)  # it catches up with what it may have missed
@@ -76,7 +74,7 @@ def test_new_shapes_announce_themselves_to_who_looks_at_others(waiting: Serving,
         seen = page.get_by_role("link", name="shape 02").bounding_box()
         for number in range(3):
             waiting.add({"a.ply": coloured_triangle(100 + number)}, wait=0, name=f"new {number}")
-        button = page.get_by_role("button", name="3 new shapes – show")
+        button = page.get_by_role("button", name="3 new shapes")
         expect(button).to_be_visible()
         expect(page.get_by_role("link", name="new 0")).to_have_count(0)
         assert page.get_by_role("link", name="shape 02").bounding_box() == seen
