@@ -1,4 +1,4 @@
-"""Draw the pictures of the page in the README: the sample creatures in a real browser. Run by `make screenshots`."""
+"""Draw the README's pictures of the page, with the sample creatures. Run by `make screenshots`."""
 
 import io
 import subprocess
@@ -27,13 +27,16 @@ def main() -> None:
     executable = chromium_path()
     if executable is None:
         raise SystemExit("no Chromium on this machine; with apt: apt-get install chromium")
-    with tempfile.TemporaryDirectory() as folder, _serving(Path(folder)) as address:
-        with launched(executable) as browser:
-            page = browser.new_page(viewport=SIZE, reduced_motion="reduce")
-            for name, show in PICTURES.items():
-                page.goto(address)
-                show(page)
-                _take(page, DOCS / f"page-{name}.png")
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        _serving(Path(folder)) as address,
+        launched(executable) as browser,
+    ):
+        page = browser.new_page(viewport=SIZE, reduced_motion="reduce")
+        for name, show in PICTURES.items():
+            page.goto(address)
+            show(page)
+            _take(page, DOCS / f"page-{name}.png")
 
 
 @contextmanager
@@ -41,7 +44,7 @@ def _serving(folder: Path) -> Iterator[str]:
     """Start the service as `make run` does; wait until every sample is described."""
     faience = Path(sys.executable).with_name("faience")
     address = f"http://127.0.0.1:{PORT}/"
-    command = [faience, "serve", "--samples", "--port", str(PORT), "--data-dir", folder]
+    command = [str(faience), "serve", "--samples", "--port", str(PORT), "--data-dir", str(folder)]
     with subprocess.Popen(command) as process:
         try:
             wait_until(lambda: _described(address))
