@@ -152,6 +152,15 @@ def test_names_are_found_across_the_pieces_of_a_long_file(page: Page) -> None:
     assert found == [True, ["m.mtl"], ["deep mtl"]]
 
 
+def test_a_piece_that_begins_within_a_line_does_not_begin_one(page: Page) -> None:
+    script = """async () => {
+      const { scanObj } = await import("/static/adding/scanning.js");
+      const comment = "#".padEnd(8 * 2 ** 20 - 1, "x"); // the next piece begins with the blank
+      return (await scanObj(new Blob([comment, " mtllib no.mtl\\nmtllib yes.mtl"]))).libraries;
+    }"""
+    assert page.evaluate(script) == ["yes.mtl"]
+
+
 @slow
 @given(
     rest=st.lists(
