@@ -21,6 +21,7 @@ OPAQUE = ["addShape", "searchByMesh", "listShapes", "findSimilar", "findSimilarT
 OPAQUE += ["listDuplicates", "listDismissals", "listTags"]  # cursors of their own
 OPAQUE += ["dismissPair"]  # two ids that differ
 OPAQUE += ["explainDistance", "explainOnQuery", "explainOnResult"]  # not all have places
+OPAQUE += ["explainDistanceOfQuery", "explainQueryOnQuery", "explainQueryOnResult"]
 # In a form everything is text: `true` in place of a name arrives as one, an empty list as nothing at all.
 FORMS = ["addShape", "searchByMesh"]
 LATER = ["getThumbnail", "getPreview"]  # are there when a new shape is ready

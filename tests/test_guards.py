@@ -52,6 +52,9 @@ CALLS = [
     ("GET", "/v1/queries/x/similar"),
     ("GET", "/v1/queries/x/thumbnail.png"),
     ("GET", "/v1/queries/x/preview.glb"),
+    ("GET", "/v1/queries/x/why/y"),
+    ("GET", "/v1/queries/x/why/y/query.glb"),
+    ("GET", "/v1/queries/x/why/y/result.glb"),
     ("GET", "/v1/events"),
     ("GET", "/metrics"),
 ]

@@ -1,17 +1,20 @@
 """Explanations over HTTP."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from index.errors import VocabularyChanged
 from index.methods import METHODS
 from service.jobs.describing import describe_files
 from service.why.scale import COLOURS
+from service.why.sides import remembered_side, stored_side
 from tests.painted import PLACED_METHODS
 from tests.problems import problem
 from tests.serving import Serving, serving, settings_for
-from tests.small_library import good_mesh, open_small_library
+from tests.small_library import good_mesh, open_small_library, small_vocabulary
 from worker.pictures.preview_points import read_colours, read_points
 
 
@@ -79,6 +82,36 @@ def test_own_weights_count_as_in_a_search(service: Serving) -> None:
     colour = "log-hks:0,colour-histogram:1,colour-curves:0"
     meshes = [service.client.get(f"{path}/query.glb", params={"weights": w}).content for w in (shape, colour)]
     assert not np.array_equal(read_colours(meshes[0]), read_colours(meshes[1]))
+
+
+@pytest.mark.parametrize("end", ["", "/query.glb", "/result.glb"])
+@pytest.mark.parametrize("name", ["fused", "chks"])
+def test_a_mesh_that_is_not_kept_is_explained_as_one_that_is(service: Serving, name: str, end: str) -> None:
+    known = {shape["name"]: shape["id"] for shape in service.client.get("/v1/shapes").json()["items"]}
+    parts = [("files", each) for each in good_mesh(1).items()]
+    query = service.client.post("/v1/search?remember=true", files=parts).json()["query"]["id"]
+    asked, ending = {"method": name}, f"why/{known['block 2']}{end}"
+    answer = service.client.get(f"/v1/queries/{query}/{ending}", params=asked)
+    assert answer.status_code == 200, answer.text
+    stored = service.client.get(f"/v1/shapes/{known['block 1']}/{ending}", params=asked)
+    assert answer.content == stored.content
+
+
+@pytest.mark.parametrize("end", ["", "/query.glb", "/result.glb"])
+def test_a_query_that_is_forgotten_is_not_explained(service: Serving, end: str) -> None:
+    path = f"/v1/queries/{'0' * 32}/why/{ids(service)[0]}{end}"
+    problem(service.client.get(path), 404, "query_not_found")
+
+
+def test_blocks_are_not_placed_by_the_words_of_another_vocabulary(service: Serving) -> None:
+    query = service.client.post(
+        "/v1/search?remember=true", files=[("files", each) for each in good_mesh(1).items()]
+    ).json()["query"]["id"]
+    another = replace(small_vocabulary(), fingerprint="another")
+    with pytest.raises(VocabularyChanged):
+        stored_side(service.library, ids(service)[0], ["log-hks"], another)
+    with pytest.raises(VocabularyChanged):
+        remembered_side(service.library, query, ["log-hks"], another)
 
 
 @pytest.mark.parametrize("end", ["", "/query.glb", "/result.glb"])

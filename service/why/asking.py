@@ -11,7 +11,7 @@ from service.vocabularies import active_vocabulary
 from service.why.explaining import Explanation, explain
 from service.why.placing import check_places
 from service.why.scale import colours_of
-from service.why.sides import Side, stored_side
+from service.why.sides import Side, remembered_side, stored_side
 from worker.pictures.preview import preview
 
 AsSide = Callable[[Collection[str], Vocabulary], Side]  # names of blocks, the active vocabulary
@@ -61,11 +61,25 @@ def explain_stored(library: Library, shape_id: str, other_id: str, question: Why
     def query(names: Collection[str], vocabulary: Vocabulary) -> Side:
         return stored_side(library, shape_id, names, vocabulary)
 
-    return explain_near(library, query, other_id, question)
+    return _explain_near(library, query, other_id, question)
 
 
-def explain_near(library: Library, query: AsSide, other_id: str, question: WhyQuestion) -> Explained:
-    """Explain the distance of a query to a stored shape; errors as for `explain_stored`."""
+def explain_remembered(library: Library, query_id: str, other_id: str, question: WhyQuestion) -> Explained:
+    """Explain the distance of a remembered query to a stored shape.
+
+    Raises
+    ------
+    QueryNotFound
+        And what `explain_stored` raises for the stored shape.
+    """
+
+    def query(names: Collection[str], vocabulary: Vocabulary) -> Side:
+        return remembered_side(library, query_id, names, vocabulary)
+
+    return _explain_near(library, query, other_id, question)
+
+
+def _explain_near(library: Library, query: AsSide, other_id: str, question: WhyQuestion) -> Explained:
     chosen = with_weights(method(question.method), question.weights or {})
     check_places(chosen)
     vocabulary = active_vocabulary(library)

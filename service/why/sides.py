@@ -6,10 +6,12 @@ from functools import cached_property
 
 import numpy as np
 
-from index.errors import BadBlock, VocabularyChanged
+from index.errors import BadBlock, FileMissing, VocabularyChanged
 from index.packing import rounded
 from index.vocabulary import Vocabulary
 from service.library import Library
+from service.remembered_words import in_active_words, remembered_signatures
+from service.remembering import QueryNotFound, query_key, recall
 from service.storage import PREVIEW, derived_key, load_signatures
 from service.why.errors import NotExplained
 from worker.arrays import FloatArray, IntArray, SingleArray
@@ -72,11 +74,27 @@ def stored_side(library: Library, shape_id: str, names: Collection[str], vocabul
     ShapeNotFound, NotReady, FileMissing, BadBlock, VocabularyChanged, NotExplained
     """
     stored = library.catalogue.query_blocks(shape_id, names)
-    if stored.vocabulary_id != vocabulary.id:
-        raise VocabularyChanged("another vocabulary became active in this moment; try again")
+    _check_words(stored.vocabulary_id, vocabulary)
     signatures = load_signatures(library.files, shape_id)
     preview = library.files.get(derived_key(shape_id, PREVIEW))
     return side_of(stored.blocks, signatures, preview, names, library.parameters)
+
+
+def remembered_side(library: Library, query_id: str, names: Collection[str], vocabulary: Vocabulary) -> Side:
+    """Return the side of a remembered query; arguments as for `stored_side`.
+
+    Raises
+    ------
+    QueryNotFound, BadBlock, VocabularyChanged, NotExplained
+    """
+    vocabulary_id, blocks = in_active_words(library, recall(library, query_id))
+    _check_words(vocabulary_id, vocabulary)
+    signatures = remembered_signatures(library, query_id)
+    try:
+        preview = library.files.get(query_key(query_id, PREVIEW))
+    except FileMissing:  # removed in this moment
+        raise QueryNotFound("this query is not remembered any more; send its mesh again") from None
+    return side_of(blocks, signatures, preview, names, library.parameters)
 
 
 def side_of(
@@ -122,6 +140,12 @@ def rehearse() -> None:
     """Load the compiled functions of this file; on a machine's first start they are compiled."""
     srgb_to_lab(np.eye(3))
     areas_of(np.eye(3), np.array([[0, 1, 2]]))
+
+
+def _check_words(vocabulary_id: str | None, vocabulary: Vocabulary) -> None:
+    """Refuse blocks in the words of another vocabulary than that which their places are looked up with."""
+    if vocabulary_id != vocabulary.id:
+        raise VocabularyChanged("another vocabulary became active in this moment; try again")
 
 
 def _check_same(side: Side) -> None:
