@@ -4,10 +4,9 @@ import io
 
 import numpy as np
 
-from index.errors import FileMissing
 from service.library import Library
 from service.quantisation import quantise
-from service.remembering import QueryNotFound, Remembered, query_key
+from service.remembering import Remembered, remembered_file
 from service.storage import SIGNATURES
 from service.vocabularies import active_vocabulary
 from worker.arrays import SingleArray
@@ -32,9 +31,6 @@ def in_active_words(library: Library, query: Remembered) -> tuple[str, dict[str,
 
 def remembered_signatures(library: Library, query_id: str) -> dict[str, SingleArray]:
     """Return the signatures of a remembered query; QueryNotFound where it was removed in this moment."""
-    try:
-        data = library.files.get(query_key(query_id, SIGNATURES))
-    except FileMissing:
-        raise QueryNotFound("this query is not remembered any more; send its mesh again") from None
+    data = remembered_file(library, query_id, SIGNATURES)
     with np.load(io.BytesIO(data), allow_pickle=False) as archive:
         return {name: archive[name] for name in archive.files}

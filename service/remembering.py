@@ -2,12 +2,14 @@
 
 import io
 import json
+import logging
 import re
 import uuid
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from datetime import datetime, timedelta
 from typing import Any
+from zipfile import BadZipFile
 
 import numpy as np
 
@@ -24,6 +26,9 @@ from worker.describe import Description, MeshFacts
 LIFETIME = timedelta(hours=1)
 MOST = 200  # queries at once, about a megabyte each; the oldest go first
 FOLDER = "queries"
+GONE = "this query is not remembered any more; send its mesh again"
+log = logging.getLogger(__name__)
+
 _ID = re.compile(r"[0-9a-f]{32}")
 _BLOCKS, _CARD = "blocks.npz", "query.json"  # the card is written last: a query with a card is whole
 
@@ -75,7 +80,7 @@ def remember(
     Returns
     -------
     str or None
-        None where the disk is full: an answer does not depend on it.
+        None where the disk is full or refuses: an answer does not depend on it.
     """
     query_id = uuid.uuid4().hex
     card = {
@@ -88,6 +93,7 @@ def remember(
     }
     numbers = {**blocks, QUERY_LADDER: described.signatures[QUERY_LADDER]}
     try:
+        library.check_space(0)  # what makes room needs some itself
         _make_room(library.files)
         for name, content in (
             (THUMBNAIL, described.thumbnail),
@@ -97,7 +103,8 @@ def remember(
             (_CARD, json.dumps(card).encode()),
         ):
             _put(library.files, query_key(query_id, name), content)
-    except StorageFull:
+    except (StorageFull, OSError):
+        log.warning("a query could not be remembered", exc_info=True)
         library.files.delete_all(f"{FOLDER}/{query_id}")
         return None
     return query_id
@@ -120,16 +127,25 @@ def recall(library: Library, query_id: str, moment: datetime | None = None) -> R
         card = json.loads(library.files.get(query_key(query_id, _CARD)))
         with np.load(io.BytesIO(library.files.get(query_key(query_id, _BLOCKS)))) as archive:
             numbers = {name: archive[name] for name in archive.files}
-    except FileMissing:
-        raise QueryNotFound("this query is not remembered any more; send its mesh again") from None
-    found = _remembered(query_id, card, numbers)
+        found = _remembered(query_id, card, numbers)
+    except (FileMissing, BadZipFile, KeyError, TypeError, ValueError):  # gone, or torn by a power cut
+        raise QueryNotFound(GONE) from None
     if found.expires_at <= (moment or now()) or found.fingerprint != library.parameters.fingerprint():
-        raise QueryNotFound("this query is not remembered any more; send its mesh again")
+        raise QueryNotFound(GONE)
     return found
 
 
+def remembered_file(library: Library, query_id: str, name: str) -> bytes:
+    """Return a file of a remembered query; QueryNotFound as for `recall`."""
+    recall(library, query_id)
+    try:
+        return library.files.get(query_key(query_id, name))
+    except FileMissing:  # removed in this moment
+        raise QueryNotFound(GONE) from None
+
+
 def forget_old(files: FileStore, older_than: float) -> int:
-    """Remove what is older than so many seconds; return how many files."""
+    """Remove what is older than so many seconds; return how many queries."""
     before = now().timestamp() - older_than
     old = [query_id for query_id, moment in _moments(files).items() if moment <= before]
     for query_id in old:

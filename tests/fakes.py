@@ -1,11 +1,13 @@
 """A quick stand-in for the description of a mesh, with children that go wrong on demand."""
 
+import io
 import os
 import time
 from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
+from PIL import Image
 
 from service.jobs.describing import FilesOnDisk
 from worker.arrays import FloatArray, SingleArray
@@ -63,9 +65,16 @@ def fake_description(mesh: Mesh, parameters: Parameters) -> Description:
             "landmarks": fake_landmarks(100 * colour, signatures["landmark-ladder"]),
         },
         signatures=signatures,
-        thumbnail=b"\x89PNG\r\n\x1a\n",
+        thumbnail=one_pixel(colour),
         preview=preview(mesh.vertices, mesh.faces, np.tile(colour, (len(mesh.vertices), 1))),
     )
+
+
+def one_pixel(colour: FloatArray) -> bytes:
+    """Return a PNG of one pixel."""
+    file = io.BytesIO()
+    Image.new("RGBA", (1, 1), tuple(int(255 * part) for part in colour)).save(file, "PNG")
+    return file.getvalue()
 
 
 def fake_signatures(level: float) -> dict[str, SingleArray]:

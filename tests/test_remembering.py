@@ -15,7 +15,7 @@ from service.intake.submissions import ReceivedFile, Submission
 from service.jobs.sweeping import sweep
 from service.library import Library
 from service.remembered_words import in_active_words
-from service.remembering import LIFETIME, QueryNotFound, forget_old, recall, remember
+from service.remembering import LIFETIME, QueryNotFound, forget_old, recall, remember, remembered_file
 from tests.fakes import coloured_triangle, describe_quickly
 from tests.serving import fake_vocabulary, open_fake_library, settings_for
 from worker.describe import Description
@@ -144,3 +144,22 @@ def test_another_vocabulary_makes_its_words_anew(
     vocabulary_id, blocks = in_active_words(library, found)
     assert vocabulary_id == other.id
     assert "log-hks" in blocks.keys() - found.blocks.keys()
+
+
+@pytest.mark.parametrize("name", ["query.json", "blocks.npz"])
+def test_what_a_power_cut_tore_is_forgotten(
+    library: Library, submission: Submission, described: Description, name: str
+) -> None:
+    query_id = remembered(library, submission, described)
+    key = f"queries/{query_id}/{name}"
+    library.files.put(key, library.files.get(key)[:40])
+    with pytest.raises(QueryNotFound):
+        recall(library, query_id)
+
+
+def test_pictures_go_with_the_hour(library: Library, submission: Submission, described: Description) -> None:
+    query_id = remembered(library, submission, described)
+    assert remembered_file(library, query_id, "thumbnail.png") == described.thumbnail
+    library.files.delete(f"queries/{query_id}/query.json")
+    with pytest.raises(QueryNotFound):
+        remembered_file(library, query_id, "thumbnail.png")

@@ -1,6 +1,6 @@
 """What belongs to a shape: its files, its pictures, its numbers."""
 
-from pathlib import Path, PurePosixPath
+from pathlib import PurePosixPath
 from typing import Annotated
 
 from fastapi import APIRouter, Query
@@ -54,7 +54,8 @@ def download(library: LibraryPart, shape_id: str, name: str) -> FileResponse:
 )
 def thumbnail(library: LibraryPart, shape_id: str, width: Width = WIDEST) -> Response:
     """Return a picture of a ready shape on a transparent background."""
-    return picture(_derived(library, shape_id, THUMBNAIL, "image/png"), width)
+    library.catalogue.get(shape_id)
+    return picture(library.files.get(derived_key(shape_id, THUMBNAIL)), width)
 
 
 @router.get(
@@ -87,11 +88,9 @@ def descriptors(library: LibraryPart, shape_id: str) -> DescriptorsModel:
     )
 
 
-def picture(file: FileResponse, width: int) -> Response:
+def picture(png: bytes, width: int) -> Response:
     """Return a thumbnail, made smaller where it is wider."""
-    if width == WIDEST:
-        return file
-    return Response(smaller(Path(file.path).read_bytes(), width), media_type="image/png", headers=PRIVATE)
+    return Response(smaller(png, width), media_type="image/png", headers=PRIVATE)
 
 
 def _derived(library: Library, shape_id: str, name: str, media_type: str) -> FileResponse:

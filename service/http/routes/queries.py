@@ -2,7 +2,7 @@
 
 from anyio import to_thread
 from fastapi import APIRouter
-from starlette.responses import FileResponse, Response
+from starlette.responses import Response
 
 from service.asking import Question
 from service.http.dependencies import LibraryPart, QuestionPart, Services, ServicesPart
@@ -10,8 +10,7 @@ from service.http.openapi import binary, problems
 from service.http.reasons import ONE_QUERY, QUESTION, READING
 from service.http.routes.contents import PRIVATE, WIDEST, Width, picture
 from service.http.schemas import AnswerModel, RememberedModel
-from service.library import Library
-from service.remembering import QueryNotFound, query_key, recall
+from service.remembering import recall, remembered_file
 from service.retrieval import find_remembered
 from service.storage import PREVIEW, THUMBNAIL
 
@@ -48,28 +47,22 @@ def _similar(services: Services, query_id: str, question: Question) -> AnswerMod
     "/{query_id}/thumbnail.png",
     operation_id="getQueryThumbnail",
     summary="A picture of a remembered query",
-    response_class=FileResponse,
+    response_class=Response,
     responses=binary("image/png", "the picture") | problems(*READING, *ONE_QUERY),
 )
 def thumbnail(library: LibraryPart, query_id: str, width: Width = WIDEST) -> Response:
     """Return a picture on a transparent background."""
-    return picture(_file(library, query_id, THUMBNAIL, "image/png"), width)
+    return picture(remembered_file(library, query_id, THUMBNAIL), width)
 
 
 @router.get(
     "/{query_id}/preview.glb",
     operation_id="getQueryPreview",
     summary="A small mesh of a remembered query, for viewers",
-    response_class=FileResponse,
+    response_class=Response,
     responses=binary("model/gltf-binary", "the mesh, with vertex colours") | problems(*READING, *ONE_QUERY),
 )
-def preview(library: LibraryPart, query_id: str) -> FileResponse:
+def preview(library: LibraryPart, query_id: str) -> Response:
     """Return a small coloured mesh."""
-    return _file(library, query_id, PREVIEW, "model/gltf-binary")
-
-
-def _file(library: Library, query_id: str, name: str, media_type: str) -> FileResponse:
-    path = library.files.path(query_key(query_id, name))
-    if not path.is_file():
-        raise QueryNotFound("this query is not remembered any more; send its mesh again")
-    return FileResponse(path, media_type=media_type, headers=PRIVATE)
+    content = remembered_file(library, query_id, PREVIEW)
+    return Response(content, media_type="model/gltf-binary", headers=PRIVATE)
