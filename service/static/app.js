@@ -10,18 +10,23 @@ const main = document.getElementById("main");
 let leaving = new AbortController();
 
 async function show() {
-  leaving.abort();
-  leaving = new AbortController();
-  const { signal } = leaving;
+  const { root, signal } = clear();
   const { view, parameters, section } = routeOf(location.hash);
-  const root = document.createElement("div");
   markSection(section);
-  main.replaceChildren(root);
   try {
     await view({ root, parameters, signal });
   } catch (error) {
     if (!signal.aborted) explain(error, root);
   }
+}
+
+/** End the view that is shown; return the place of the next one, and the signal of its end. */
+function clear() {
+  leaving.abort();
+  leaving = new AbortController();
+  const root = document.createElement("div");
+  main.replaceChildren(root);
+  return { root, signal: leaving.signal };
 }
 
 /** Say what went wrong in the place of the view; without a key, ask for one. */
@@ -48,5 +53,6 @@ window.addEventListener("hashchange", () => {
   main.focus({ preventScroll: true }); // a new page: those who listen begin at its content
   window.scrollTo(0, 0);
 });
+window.addEventListener("keywanted", () => askForKey(clear().root, show));
 startAdding();
 show();

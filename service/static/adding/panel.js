@@ -3,7 +3,7 @@
 import { html, render, repeat } from "../vendor/lit-html.js";
 import { say } from "../shared/said.js";
 import { count, many } from "../shared/words.js";
-import { forgetKey } from "../shared/key.js";
+import { exchangeKey } from "../shared/key.js";
 import { goOn, hold } from "./queue.js";
 import { inWords, remediesOf } from "./refusals.js";
 import { row } from "./row.js";
@@ -91,16 +91,10 @@ function holding() {
   return html`<div class="note why">
     <p><strong>${title}.</strong> ${action} ${more} <code>${problem.code}</code></p>
     <p class="row">
-      ${key ? html`<button @click=${enterKey}>Enter a key</button>` : ""}
+      ${key ? html`<button @click=${exchangeKey}>Enter a key</button>` : ""}
       <button class="strong" @click=${goOn}>${until ? "Try now" : "Go on"}</button>
     </p>
   </div>`;
-}
-
-/** Let the view ask for it: it is drawn anew, and refused for want of one. */
-function enterKey() {
-  forgetKey();
-  window.dispatchEvent(new HashChangeEvent("hashchange"));
 }
 
 /** Tell those who listen: each refusal, why all wait, and the end. */

@@ -7,7 +7,8 @@ import { STATES, count, many } from "../shared/words.js";
 export async function readCounts({ q, tags }, signal) {
   const all = read(path(["counts"]), { signal });
   const found = q || tags.length ? read(path(["counts"], { q, tag: tags }), { signal }) : all;
-  return { all: await all, found: await found };
+  const [every, some] = await Promise.all([all, found]);
+  return { all: every, found: some };
 }
 
 /** "2,000 shapes, 3 waiting, 1 failed", or "37 of 2,000 shapes match". */

@@ -5,7 +5,12 @@ import { html, render } from "../vendor/lit-html.js";
 const NAME = "key";
 
 export const heldKey = () => sessionStorage.getItem(NAME);
-export const forgetKey = () => sessionStorage.removeItem(NAME);
+
+/** Ask for another key in the place of the view, whatever it could still show without one. */
+export function exchangeKey() {
+  sessionStorage.removeItem(NAME);
+  window.dispatchEvent(new Event("keywanted"));
+}
 
 /** Show a form for the key in the place of a view. */
 export function askForKey(root, then) {
