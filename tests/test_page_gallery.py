@@ -77,6 +77,19 @@ def test_more_is_shown_by_a_button_and_the_keyboard_goes_on_there(service: Servi
         assert focused == _names(page)[60]
 
 
+def test_a_browser_that_tells_late_that_the_end_is_near_is_heard(service: Serving, browser: Browser) -> None:
+    """Busy, it tells in one go where the end was and where it is now."""
+    late = """window.IntersectionObserver = class {
+        constructor(hear) { this.hear = hear; }
+        observe() { setTimeout(() => this.hear([{ isIntersecting: false }, { isIntersecting: true }])); }
+        disconnect() {}
+    };"""
+    with opened(browser) as page:
+        page.add_init_script(late)
+        _open(page, service)
+        expect(page.get_by_text(f"These are all {SHAPES} shapes")).to_be_visible()
+
+
 def test_a_page_that_failed_is_tried_again(service: Serving, browser: Browser) -> None:
     numbers = count()
 

@@ -16,7 +16,8 @@ export function ending(shelf, more) {
 
 /** Return a function to call after each drawing: `near` is called where the end is near then, or comes near later. */
 export function watchEnd(root, near, signal) {
-  const watcher = new IntersectionObserver(([entry]) => entry.isIntersecting && near(), { rootMargin: NEAR });
+  // a busy browser tells several things at once, oldest first: what counts is where the end is now
+  const watcher = new IntersectionObserver((told) => told.at(-1).isIntersecting && near(), { rootMargin: NEAR });
   signal.addEventListener("abort", () => watcher.disconnect());
   return () => {
     watcher.disconnect(); // watching anew tells where the end is now

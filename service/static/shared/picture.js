@@ -23,7 +23,7 @@ export function picture(base, sizes = "10rem", eager = false) {
 /** An image that is asked for with the key, which <img> cannot send, when it comes into view. */
 class KeyedPicture extends HTMLElement {
   connectedCallback() {
-    this.watcher = new IntersectionObserver(([entry]) => entry.isIntersecting && this.load(), { rootMargin: "200px" });
+    this.watcher = new IntersectionObserver((told) => told.some((one) => one.isIntersecting) && this.load(), { rootMargin: "200px" });
     this.watcher.observe(this);
   }
 
