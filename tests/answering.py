@@ -54,18 +54,8 @@ def answer_of(
 ) -> Iterator[Page]:
     """Open a view of the page."""
     with opened(browser, viewport, **options) as page:
-        page.route("**/v1/methods", answering(_methods(service)))
         page.goto(f"{service.client.base_url}{address}")
         yield page
-
-
-def _methods(service: Serving) -> Any:
-    """Return the methods, with what each block looks at."""
-    methods = service.client.get("/v1/methods").json()
-    for one in (block for method in methods["items"] for block in method["blocks"]):
-        geometric = one["name"] in ("log-hks", "hks-0", "diffusion-geometric")
-        one.setdefault("looks_at", "geometry" if geometric else "colour")
-    return methods
 
 
 def names(page: Page) -> list[str]:

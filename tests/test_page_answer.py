@@ -7,13 +7,24 @@ from playwright.sync_api import Browser, Route, expect
 
 from service.jobs.describing import describe_files
 from tests.accessible import assert_accessible
-from tests.answering import BLUE, CUBE, HOSTILE, RED, add, answer_of, answering, block, blocks_served, names
+from tests.answering import (
+    BLUE,
+    CUBE,
+    HOSTILE,
+    RED,
+    TOWER,
+    add,
+    answer_of,
+    answering,
+    block,
+    blocks_served,
+    names,
+)
 from tests.browsing import DESK, PHONE
 from tests.serving import Serving, serving, settings_for
 from tests.small_library import open_small_library
 
 PLACES = "cards => cards.map((card) => JSON.stringify(card.getBoundingClientRect()))"
-FORGOTTEN = {"code": "query_not_found", "detail": "gone", "status": 404, "title": "Not found"}
 
 
 @pytest.fixture(scope="module")
@@ -145,28 +156,37 @@ def test_a_shape_that_failed_says_why(library: tuple[Serving, str], browser: Bro
         expect(page.get_by_role("alert")).to_have_text("It has more faces than fit. (too_complex)")
 
 
-def test_a_remembered_mesh_is_asked_for_by_its_own_path(
+def test_a_mesh_that_was_dropped_is_a_query_like_a_shape(
     library: tuple[Serving, str], browser: Browser
 ) -> None:
-    service, query = library
-    shape = service.shape(query)
-    remembered = {"id": "q1", "name": "dropped", "mesh": shape["mesh"], "expires_at": "2026-11-29T12:00:00Z"}
-    ranked = service.client.get(f"/v1/shapes/{query}/similar").json()
-    with answer_of(service, "/", browser) as page:
-        page.route("**/v1/queries/q1", answering(remembered))
-        page.route("**/v1/queries/q1/similar?*", answering(ranked))
-        page.route("**/v1/queries/q1/thumbnail.png*", lambda route: route.fulfill(body=b"", status=200))
-        page.evaluate("location.hash = '#/queries/q1'")
-        expect(page.get_by_role("heading", name="dropped")).to_be_visible()
+    service, _ = library
+    parts = [("files", file) for file in block(CUBE, RED, 9).items()]
+    sent = service.client.post("/v1/search", params={"remember": "true"}, files=parts)
+    query = sent.json()["query"]
+    with answer_of(service, f"/#/queries/{query['id']}?colour=0", browser) as page:
+        expect(page.get_by_role("heading", name=query["name"], level=1)).to_be_visible()
         expect(page.get_by_text("Not in the library")).to_be_visible()
-        expect(page.locator(".result")).to_have_count(3)
-        assert names(page)[0] == ranked["results"][0]["shape"]["name"]
+        expect(page.get_by_text("Name, tags and files")).to_have_count(0)
+        expect(page.locator(".result")).to_have_count(4)
+        assert set(names(page)[:2]) == {"red cube", "blue cube"}
 
 
 def test_a_forgotten_mesh_is_explained(library: tuple[Serving, str], browser: Browser) -> None:
-    with answer_of(library[0], "/", browser, expected=("404",)) as page:
-        page.route("**/v1/queries/old", answering(FORGOTTEN, 404))
-        page.evaluate("location.hash = '#/queries/old'")
+    with answer_of(library[0], "/#/queries/old", browser, expected=("404",)) as page:
         expect(
             page.get_by_text("This search was forgotten after an hour; drop the mesh again.")
         ).to_be_visible()
+
+
+def test_the_query_is_renamed_below_its_picture(library: tuple[Serving, str], browser: Browser) -> None:
+    service, _ = library
+    query = add(service, block(TOWER, BLUE, 8), "nameless")
+    with answer_of(service, f"/#/shapes/{query}", browser) as page:
+        expect(page.get_by_role("button", name="Rename")).to_have_count(0)
+        page.get_by_text("Name, tags and files").click()
+        page.get_by_role("button", name="Rename").click()
+        page.get_by_role("textbox", name="Name").fill("obelisk")
+        page.keyboard.press("Enter")
+        expect(page.get_by_role("heading", name="obelisk", level=1)).to_be_visible()
+        assert_accessible(page)
+    service.client.delete(f"/v1/shapes/{query}")

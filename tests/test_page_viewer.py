@@ -190,7 +190,7 @@ def test_twenty_openings_leave_nothing_behind(library: tuple[Serving, str], brow
         for _ in range(20):
             compare(page)
             page.get_by_role("button", name="Close").click()
-            expect(page.locator("dialog, canvas")).to_have_count(0)
+            expect(page.locator(".viewer, canvas")).to_have_count(0)
         assert page.evaluate("held.map((context) => context.isContextLost())") == [True] * 20
         compare(page)
         assert colourful(pixels(page, 1)) > 0.05

@@ -2,6 +2,7 @@
 
 import { html } from "../vendor/lit-html.js";
 import { picture } from "../shared/picture.js";
+import { details } from "../shape/details.js";
 import { COLOURS, STATES, capital, count, when } from "../shared/words.js";
 
 const SIZES = "(max-width: 50rem) 7rem, 16rem"; // of the picture, see styles/answer.css
@@ -21,6 +22,7 @@ export function subject(answer) {
         ? html`<p class="soft">Not in the library. It is remembered until ${when(query.expires_at)}.</p>`
         : html`<p class="soft">Added ${when(query.created_at)}</p>`}
     </div>
+    ${kind === "shapes" ? html`<details class="more"><summary>Name, tags and files</summary>${details(query)}</details>` : ""}
   </section>`;
 }
 
@@ -33,10 +35,10 @@ const facts = (mesh) => html`<dl class="facts">
     <ul>${mesh.warnings.map((warning) => html`<li>${capital(warning)}</li>`)}</ul></details>` : ""}`;
 
 /** Say why there is no answer yet, or will be none. */
-export const unready = ({ status, error }) => status === "failed"
+export const unready = ({ id, status, error }) => status === "failed"
   ? html`<h2>It could not be described</h2>
       <p role="alert">${error.detail} <small>(${error.code})</small></p>
-      <p>It can be tried again on the page of <a href="#/jobs">jobs</a>.</p>`
+      <p>It can be tried again: see <a href="#/shapes/${encodeURIComponent(id)}/details">its details</a>.</p>`
   : html`<h2>${status === "queued" ? "It waits for its turn" : "It is being described"}</h2>
       <p role="status">As soon as that is done, what is similar to it appears here.</p>
       <progress aria-label="Being described"></progress>`;
