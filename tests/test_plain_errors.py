@@ -1,51 +1,40 @@
 """Whatever the framework answers, an error leaves as a problem, and everything else untouched."""
 
 import httpx
-import pytest
 from starlette.responses import PlainTextResponse, Response
 
 from service.http.headers import SAFE_HEADERS, AddSafeHeaders
 from service.http.plain_errors import ReplacePlainErrors
 from service.http.problems import plain_problem
+from tests.asking import ask
 from tests.problems import problem
 
 
-async def ask(answer: Response) -> httpx.Response:
-    transport = httpx.ASGITransport(AddSafeHeaders(ReplacePlainErrors(answer)))
-    async with httpx.AsyncClient(transport=transport, base_url="http://x") as client:
-        return await client.get("/")
+def outside(answer: Response) -> httpx.Response:
+    return ask(AddSafeHeaders(ReplacePlainErrors(answer)))
 
 
-@pytest.mark.anyio
-async def test_a_plain_error_is_replaced_and_keeps_what_clients_need() -> None:
+def test_a_plain_error_is_replaced_and_keeps_what_clients_need() -> None:
     plain = PlainTextResponse("inner words", 416, headers={"content-range": "bytes */5"})
-    answer = await ask(plain)
+    answer = outside(plain)
     problem(answer, 416, "range_not_satisfiable")
     assert "inner words" not in answer.text
     assert answer.headers["content-range"] == "bytes */5"
     assert answer.headers["content-length"] == str(len(answer.content))
 
 
-@pytest.mark.anyio
-async def test_an_unlisted_status_has_a_code_too() -> None:
-    problem(await ask(PlainTextResponse("x", 418)), 418, "http_418")
+def test_an_unlisted_status_has_a_code_too() -> None:
+    problem(outside(PlainTextResponse("x", 418)), 418, "http_418")
 
 
-@pytest.mark.anyio
-async def test_a_problem_and_a_success_pass_unchanged() -> None:
-    assert (await ask(PlainTextResponse("fine"))).text == "fine"
+def test_a_problem_and_a_success_pass_unchanged() -> None:
+    assert outside(PlainTextResponse("fine")).text == "fine"
     own = plain_problem(404)
-    assert (await ask(own)).content == own.body
+    assert outside(own).content == own.body
 
 
-@pytest.mark.anyio
-async def test_safe_headers_are_added_and_an_answers_own_are_kept() -> None:
-    answer = await ask(PlainTextResponse("fine", headers={"Content-Security-Policy": "sandbox"}))
+def test_safe_headers_are_added_and_an_answers_own_are_kept() -> None:
+    answer = outside(PlainTextResponse("fine", headers={"Content-Security-Policy": "sandbox"}))
     assert answer.headers["content-security-policy"] == "sandbox"
     for name in set(SAFE_HEADERS) - {"Content-Security-Policy"}:
         assert answer.headers[name] == SAFE_HEADERS[name]
-
-
-@pytest.fixture
-def anyio_backend() -> str:
-    return "asyncio"

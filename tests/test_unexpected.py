@@ -3,11 +3,11 @@
 import logging
 from pathlib import Path
 
-import httpx
 import pytest
 from starlette.types import Message, Receive, Scope, Send
 
 from service.http.unexpected import AnswerUnexpected
+from tests.asking import ask
 from tests.problems import problem
 from tests.serving import serving, settings_for
 
@@ -26,21 +26,13 @@ class Failing:
         raise RuntimeError("secret")
 
 
-async def ask(started: bool) -> httpx.Response:
-    transport = httpx.ASGITransport(AnswerUnexpected(Failing(started)))
-    async with httpx.AsyncClient(transport=transport, base_url="http://x") as client:
-        return await client.get("/")
+def test_what_fails_before_its_answer_is_a_problem() -> None:
+    problem(ask(AnswerUnexpected(Failing(started=False))), 500, "internal_error")
 
 
-@pytest.mark.anyio
-async def test_what_fails_before_its_answer_is_a_problem() -> None:
-    problem(await ask(started=False), 500, "internal_error")
-
-
-@pytest.mark.anyio
-async def test_what_fails_within_its_answer_is_left_to_the_server_which_cuts_it() -> None:
+def test_what_fails_within_its_answer_is_left_to_the_server_which_cuts_it() -> None:
     with pytest.raises(RuntimeError, match="secret"):
-        await ask(started=True)
+        ask(AnswerUnexpected(Failing(started=True)))
 
 
 def test_outside_nothing_is_told_of_it_and_the_log_has_it_once(
@@ -60,8 +52,3 @@ def test_outside_nothing_is_told_of_it_and_the_log_has_it_once(
         lines = running.client.get("/metrics").text.splitlines()
     assert len([record for record in caplog.records if record.exc_info]) == 1
     assert 'faience_requests_total{method="GET",path="/v1/shapes",status="500"} 1.0' in lines
-
-
-@pytest.fixture
-def anyio_backend() -> str:
-    return "asyncio"

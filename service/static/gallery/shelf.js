@@ -16,6 +16,7 @@ export class Shelf {
   loading = null; // a promise, while a page is on its way
   element = document.createElement("div"); // holds the cards, also while another view is shown
   y = 0; // pixels that it was scrolled
+  known = null; // what the service counted last, while this was shown
   changed = () => {}; // whoever shows it hears of pages, and with `true` of changes in the library
 
   constructor(filters) {

@@ -51,6 +51,7 @@ class Gallery {
   take(shelf) {
     if (this.shelf) this.shelf.changed = () => {};
     this.shelf = shelf;
+    this.known = shelf.known ?? this.known; // who comes back finds the same lines above the cards
     shelf.changed = (heard) => {
       if (heard) this.countSoon();
       this.drawSoon();
@@ -108,8 +109,8 @@ class Gallery {
     const reading = [readCounts(filters, signal), read(path(["tags"], { limit: TAGS }), { signal })];
     const [counts, tags] = await Promise.allSettled(reading);
     if (signal.aborted || this.filters !== filters) return;
-    if (counts.value) this.known.counts = counts.value;
-    if (tags.value) this.known.tags = tags.value;
+    this.known = { counts: counts.value ?? this.known.counts, tags: tags.value ?? this.known.tags };
+    if (this.shelf.filters === filters) this.shelf.known = this.known;
     this.drawSoon();
   }
 
