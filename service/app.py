@@ -11,6 +11,7 @@ from fastapi import APIRouter, Depends, FastAPI
 
 from index.keys import Keys
 from index.rehearsal import rehearse as rehearse_search
+from index.shapes import Shape
 from service.http.dependencies import Services, guard
 from service.http.errors import add_handlers
 from service.http.head import AnswerHead
@@ -31,6 +32,7 @@ from service.http.routes import (
     shapes,
     why,
 )
+from service.http.schemas import ShapeModel
 from service.http.slow_bodies import LimitBodyTime
 from service.http.turnstile import Turnstile
 from service.http.unexpected import AnswerUnexpected
@@ -44,6 +46,7 @@ from service.library import Library
 from service.refining import rehearse as rehearse_registration
 from service.relations.postures import rehearse as rehearse_postures
 from service.settings import Settings
+from service.webhooks.messenger import telling
 from service.why.sides import rehearse as rehearse_why
 
 OpenLibrary = Callable[[Settings], Library]
@@ -132,6 +135,7 @@ def _services(
         searches.warm()
         stack.callback(searches.shutdown, cancel_futures=True)
         stack.enter_context(_rehearsal())
+        stack.enter_context(telling_webhooks(library))
         notify = stack.enter_context(_embedded_worker(library, metrics, describe))
         yield Services(
             library=library,
@@ -145,6 +149,15 @@ def _services(
             notify=notify,
             describe=describe,
         )
+
+
+def telling_webhooks(library: Library) -> contextlib.AbstractContextManager[None]:
+    """Return what tells webhooks of a library's shapes, as the interface shows them."""
+
+    def read(shape_id: str) -> Shape | None:
+        return library.catalogue.get_many([shape_id]).get(shape_id)
+
+    return telling(library.engine, read, lambda shape: ShapeModel.of(shape).model_dump(mode="json"))
 
 
 @contextlib.contextmanager

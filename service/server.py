@@ -8,7 +8,7 @@ import time
 import uvicorn
 from fastapi import FastAPI
 
-from service.app import child_limits, create_app
+from service.app import child_limits, create_app, telling_webhooks
 from service.file_limit import raise_file_limit
 from service.first_run import Report, show_samples
 from service.http.connections import BoundedConnection
@@ -94,7 +94,8 @@ def run_worker(settings: Settings, workers: int, stop: threading.Event) -> None:
     thread = threading.Thread(target=worker.run, name="worker")
     thread.start()
     try:
-        stop.wait()
+        with telling_webhooks(library):
+            stop.wait()
     finally:
         worker.stop()
         thread.join()  # it gives its jobs back first, while the pool still takes what it submits
