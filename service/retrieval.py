@@ -135,7 +135,7 @@ def search_upload(
     check_question(question)
     inspect_upload(submission.upload(), library.limits)
     described = executor.submit(
-        describe, submission.paths, submission.allow_untextured, library.parameters, library.limits
+        describe, submission.contents, submission.allow_untextured, library.parameters, library.limits
     ).result()
     found = rank_description(library, described, question)
     query = described_side(described, found.blocks, ((file.name, file.sha256) for file in submission.files))

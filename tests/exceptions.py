@@ -17,6 +17,7 @@ from index.errors import (
     LibraryNotEmpty,
     NewerFormat,
     UnknownDatabase,
+    UnknownStorage,
     UnknownVocabulary,
 )
 
@@ -30,6 +31,7 @@ INSIDE = {
     KeyNotFound,
     BadKeyName,
     UnknownDatabase,
+    UnknownStorage,
     *EXPORTS,
 }
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from index.errors import FileMissing
-from index.files import FileStore
+from index.local_files import LocalFiles
 from service.storage import (
     THUMBNAIL,
     derived_key,
@@ -23,7 +23,7 @@ def test_keys_tell_whose_file_it_is() -> None:
 
 
 def test_signatures_come_back_bit_for_bit_in_single_precision(tmp_path: Path) -> None:
-    store = FileStore(tmp_path)
+    store = LocalFiles(tmp_path)
     sent = {"areas": np.linspace(0, 1, 7), "hks-0.05": np.random.default_rng(1).normal(size=(7, 6))}
     single = {name: array.astype(np.float32) for name, array in sent.items()}
     save_signatures(store, "s1", single)
@@ -35,7 +35,7 @@ def test_signatures_come_back_bit_for_bit_in_single_precision(tmp_path: Path) ->
 
 
 def test_one_signature_is_read_alone(tmp_path: Path) -> None:
-    store = FileStore(tmp_path)
+    store = LocalFiles(tmp_path)
     sent = {name: np.full((3, 2), number, np.float32) for number, name in enumerate("abc")}
     save_signatures(store, "s1", sent)
     for name, array in sent.items():
@@ -48,4 +48,4 @@ def test_one_signature_is_read_alone(tmp_path: Path) -> None:
 
 def test_a_shape_without_signatures_is_named(tmp_path: Path) -> None:
     with pytest.raises(FileMissing):
-        load_signatures(FileStore(tmp_path), "s1")
+        load_signatures(LocalFiles(tmp_path), "s1")

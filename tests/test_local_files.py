@@ -10,7 +10,7 @@ from types import SimpleNamespace
 import pytest
 
 from index.errors import FileMissing, StorageFull
-from index.files import FileStore
+from index.local_files import LocalFiles
 
 
 def everything_in(root: Path) -> list[str]:
@@ -18,7 +18,7 @@ def everything_in(root: Path) -> list[str]:
 
 
 def test_what_was_put_is_given_back(tmp_path: Path) -> None:
-    store = FileStore(tmp_path / "files")
+    store = LocalFiles(tmp_path / "files")
     store.put("shapes/a/files/0", b"one")
     store.put("shapes/a/files/0", b"another")
     assert store.get("shapes/a/files/0") == b"another"
@@ -27,7 +27,7 @@ def test_what_was_put_is_given_back(tmp_path: Path) -> None:
 
 def test_a_stream_is_kept_with_its_size_and_checksum(tmp_path: Path) -> None:
     data = os.urandom(3 << 20) + b"x"
-    store = FileStore(tmp_path)
+    store = LocalFiles(tmp_path)
     assert store.put_stream("k", io.BytesIO(data)) == (len(data), sha256(data).hexdigest())
     assert store.get("k") == data
 
@@ -35,7 +35,7 @@ def test_a_stream_is_kept_with_its_size_and_checksum(tmp_path: Path) -> None:
 def test_the_content_is_flushed_before_the_name_appears_and_the_folder_after(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    store = FileStore(tmp_path)
+    store = LocalFiles(tmp_path)
     store.put("shapes/first", b"makes the folders")
     steps: list[tuple[str, str]] = []
     flush, replace = os.fsync, os.replace
@@ -64,7 +64,7 @@ def test_new_folders_are_made_durable_too(tmp_path: Path, monkeypatch: pytest.Mo
         flush(descriptor)
 
     monkeypatch.setattr(os, "fsync", watched_flush)
-    FileStore(tmp_path).put("a/b/c", b"")
+    LocalFiles(tmp_path).put("a/b/c", b"")
     assert {tmp_path, tmp_path / "a", tmp_path / "a" / "b"} <= set(flushed)
 
 
@@ -72,7 +72,7 @@ def test_new_folders_are_made_durable_too(tmp_path: Path, monkeypatch: pytest.Mo
 def test_a_full_disk_is_named_and_leaves_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: int
 ) -> None:
-    store = FileStore(tmp_path)
+    store = LocalFiles(tmp_path)
 
     def full(_descriptor: int) -> None:
         raise OSError(number, os.strerror(number))
@@ -89,7 +89,7 @@ def test_a_full_disk_is_named_and_leaves_nothing(
 def test_a_disk_that_fills_while_a_file_is_replaced_keeps_the_old_one(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    store = FileStore(tmp_path)
+    store = LocalFiles(tmp_path)
     store.put("a/b", b"old")
 
     def full(_source: object, _target: object) -> None:
@@ -110,7 +110,7 @@ def test_a_stream_that_breaks_off_leaves_nothing(tmp_path: Path) -> None:
             return super().read(size)
 
     with pytest.raises(ConnectionError):
-        FileStore(tmp_path).put_stream("a/b", Broken(b"x" * (2 << 20)))
+        LocalFiles(tmp_path).put_stream("a/b", Broken(b"x" * (2 << 20)))
     assert everything_in(tmp_path) == []
 
 
@@ -119,16 +119,16 @@ def test_a_stream_that_breaks_off_leaves_nothing(tmp_path: Path) -> None:
 )
 def test_a_key_that_we_cannot_have_made_is_refused(tmp_path: Path, key: str) -> None:
     with pytest.raises(ValueError, match="not a file key"):
-        FileStore(tmp_path).put(key, b"")
+        LocalFiles(tmp_path).put(key, b"")
 
 
 def test_what_is_absent_is_named(tmp_path: Path) -> None:
     with pytest.raises(FileMissing, match="'a/b'"):
-        FileStore(tmp_path).get("a/b")
+        LocalFiles(tmp_path).get("a/b")
 
 
 def test_deleting_removes_emptied_folders_and_only_those(tmp_path: Path) -> None:
-    store = FileStore(tmp_path)
+    store = LocalFiles(tmp_path)
     for key in ("shapes/a/files/0", "shapes/a/thumbnail.png", "shapes/b/files/0"):
         store.put(key, b"")
     store.delete("shapes/a/files/0")
@@ -140,7 +140,7 @@ def test_deleting_removes_emptied_folders_and_only_those(tmp_path: Path) -> None
 
 
 def test_keys_of_a_folder_are_listed_without_half_written_files(tmp_path: Path) -> None:
-    store = FileStore(tmp_path)
+    store = LocalFiles(tmp_path)
     store.put("a/1", b"")
     store.put("b/2", b"")
     (tmp_path / ".incoming" / "half").write_bytes(b"")
@@ -150,7 +150,7 @@ def test_keys_of_a_folder_are_listed_without_half_written_files(tmp_path: Path) 
 
 
 def test_sweeping_removes_old_half_written_files_alone(tmp_path: Path) -> None:
-    store = FileStore(tmp_path)
+    store = LocalFiles(tmp_path)
     store.put("a/1", b"")
     for name, modified in (("old", 1_000.0), ("future", 9e9)):
         path = tmp_path / ".incoming" / name
@@ -162,7 +162,7 @@ def test_sweeping_removes_old_half_written_files_alone(tmp_path: Path) -> None:
 
 
 def test_deleting_beside_writing_in_one_folder_harms_neither(tmp_path: Path) -> None:
-    store = FileStore(tmp_path)
+    store = LocalFiles(tmp_path)
 
     def again_and_again(name: str) -> None:
         for _ in range(60):
@@ -180,7 +180,7 @@ def test_many_files_are_flushed_at_once(tmp_path: Path, monkeypatch: pytest.Monk
     flushed: list[int] = []  # inodes, and 0 for everything
     monkeypatch.setattr("index.files.os.sync", lambda: flushed.append(0))
     monkeypatch.setattr("index.files.os.fsync", lambda number: flushed.append(os.fstat(number).st_ino))
-    store = FileStore(tmp_path / "files")
+    store = LocalFiles(tmp_path / "files")
     keys = ["a/b/0", "a/b/1", "a/c/0"]
     for key in keys:
         store.write(key, lambda file: file.write(b"x"), flushed=False)
