@@ -193,7 +193,7 @@ class LocalFiles:
                 _make_folder(final.parent, flushed)
                 aside.replace(final)
                 break
-            except FileNotFoundError:  # a delete beside us pruned the folder just now
+            except (FileNotFoundError, FileExistsError):  # a delete beside us pruned the folder just now
                 if not left:
                     raise
         if flushed:

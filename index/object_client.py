@@ -41,15 +41,15 @@ def object_client(url: str, endpoint: str | None) -> S3Store:
     """
     if not _ADDRESS.fullmatch(url):
         raise UnknownStorage("the address of a bucket is s3://BUCKET or s3://BUCKET/PREFIX, without keys")
-    config: S3Config = {"checksum_algorithm": os.environ.get("AWS_CHECKSUM_ALGORITHM", "SHA256")}
+    given = {"checksum_algorithm": os.environ.get("AWS_CHECKSUM_ALGORITHM", "SHA256")}
     if endpoint is not None:
-        config["endpoint"] = endpoint
+        given["endpoint"] = endpoint
     try:
         return S3Store.from_url(
             url.rstrip("/"),
-            config=config,
             client_options={"allow_http": str(endpoint).startswith("http://"), "timeout": "60s"},
             retry_config={"max_retries": RETRIES, "retry_timeout": timedelta(seconds=30)},
+            **given,  # type: ignore[arg-type]  # its options have types that exist for checkers alone
         )
     except (BaseError, ValueError) as error:
         raise UnknownStorage(f"no client can be made for {url}; are the AWS_… variables right?") from error

@@ -10,7 +10,6 @@ from pathlib import PurePosixPath
 from typing import BinaryIO
 
 import obstore
-from obstore import Attributes
 
 from index.errors import FileMissing, StorageUnreachable, UnknownStorage
 from index.files import KEY, FileFacts, Stream, check_key
@@ -166,7 +165,6 @@ class ObjectFiles:
 
     def _put(self, key: str, content: bytes | Iterator[bytes]) -> None:
         kind = TYPES.get(PurePosixPath(check_key(key)).suffix, OTHER)
-        attributes: Attributes = {"Content-Type": kind, "Content-Disposition": "attachment"}
         whole = isinstance(content, bytes)
         try:
             with named_failures(key):
@@ -174,7 +172,7 @@ class ObjectFiles:
                     self._store,
                     key,
                     content,
-                    attributes=attributes,
+                    attributes={"Content-Type": kind, "Content-Disposition": "attachment"},
                     use_multipart=not whole,
                     chunk_size=PIECE,
                     max_concurrency=AT_ONCE,
