@@ -28,13 +28,21 @@ def open_files(url: str | None, folder: Path) -> FileStore:
         return LocalFiles(folder.resolve())
     parts = urlsplit(url)
     if parts.scheme == "s3":
-        from index.object_files import ObjectFiles  # most libraries need no client of object storage
-
-        bucket = ObjectFiles(url)
-        bucket.check()
-        return bucket
+        return _open_bucket(url)
     if parts.scheme == "file" and parts.netloc in ("", "localhost") and len(parts.path) > 1:
         return LocalFiles(Path(unquote(parts.path)).resolve())
     raise UnknownStorage(
         f"files are kept in file:///FOLDER or s3://BUCKET/PREFIX, not in {parts.scheme!r:.40}"
     )
+
+
+def _open_bucket(url: str) -> FileStore:
+    from index.object_client import BucketMissing  # most libraries need no client of object storage
+    from index.object_files import ObjectFiles
+
+    bucket = ObjectFiles(url)
+    try:
+        bucket.check()
+    except BucketMissing:
+        raise UnknownStorage(f"there is no bucket for {url}; make it first") from None
+    return bucket

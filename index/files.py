@@ -38,6 +38,9 @@ class FileStore(Protocol):
     def folder(self) -> Path | None:
         """Where the files are on this machine, each under its key; None where they are elsewhere."""
 
+    def check(self) -> None:
+        """Return where the files can be reached; StorageUnreachable where they cannot."""
+
     def put(self, key: str, data: bytes, *, flushed: bool = True) -> None:
         """Keep `data` under `key`, durably, replacing what was there.
 

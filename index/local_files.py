@@ -39,6 +39,9 @@ class LocalFiles:
         """Where the files are, each under its key."""
         return self._root
 
+    def check(self) -> None:
+        """Do nothing: the folder is made on first use."""
+
     def put(self, key: str, data: bytes, *, flushed: bool = True) -> None:
         """Keep `data` under `key`, replacing what was there; durably, if flushed. StorageFull as `write`."""
         self.write(key, lambda file: file.write(data), flushed=flushed)

@@ -11,9 +11,9 @@ from typing import BinaryIO
 
 import obstore
 
-from index.errors import FileMissing, StorageUnreachable, UnknownStorage
+from index.errors import FileMissing, StorageUnreachable
 from index.files import KEY, FileFacts, Stream, check_key
-from index.object_client import BucketMissing, given_endpoint, named_failures, object_client
+from index.object_client import given_endpoint, named_failures, object_client
 
 PIECE = 8 << 20  # bytes of one request; a file that is longer is sent and read in several
 AT_ONCE = 4  # requests of one upload
@@ -51,19 +51,9 @@ class ObjectFiles:
         return ObjectFiles, (self._url, self._endpoint)
 
     def check(self) -> None:
-        """Look into the bucket.
-
-        Raises
-        ------
-        UnknownStorage
-            There is no such bucket.
-        StorageUnreachable
-        """
-        try:
-            with named_failures(self._url):
-                next(iter(obstore.list(self._store, chunk_size=1)), None)
-        except BucketMissing:
-            raise UnknownStorage(f"there is no bucket for {self._url}; make it first") from None
+        """Look into the bucket; StorageUnreachable where that cannot be, BucketMissing where there is none."""
+        with named_failures(self._url):
+            next(iter(obstore.list(self._store, chunk_size=1)), None)
 
     def put(self, key: str, data: bytes, *, flushed: bool = True) -> None:  # noqa: ARG002 - always durable
         """Keep `data` under `key`, durably, replacing what was there."""

@@ -58,9 +58,14 @@ class Library:
         ----------
         vocabulary : Vocabulary, optional
             For a library that has none yet; the one that ships with the project otherwise.
+
+        Raises
+        ------
+        UnknownStorage, StorageUnreachable, UnknownDatabase
         """
         folder = settings.data_dir
         folder.mkdir(parents=True, exist_ok=True)
+        files = open_files(settings.storage_url, folder / "files")
         engine = make_engine(settings.url, settings.busy_seconds)
         migrate(engine)
         catalogue = Catalogue(engine)
@@ -71,7 +76,7 @@ class Library:
             engine=engine,
             catalogue=catalogue,
             queue=Queue(engine),
-            files=open_files(settings.storage_url, folder / "files"),
+            files=files,
             incoming=Incoming(folder / "incoming"),
             reserve=Reserve(folder / "reserve", settings.reserve_bytes // RESERVED),
             searcher=Searcher(catalogue, folder / "index"),

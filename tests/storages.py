@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
+from urllib.parse import urlsplit
 
 import httpx
 import pytest
@@ -81,8 +82,6 @@ def make_older(files: FileStore, key: str, seconds: float) -> None:
         return
     from moto.s3.models import s3_backends  # the server is in this process, and no request changes its clock
 
-    (place,) = (
-        name for name in s3_backends[ACCOUNT_ID]["aws"].buckets[BUCKET].keys if name.endswith(f"/{key}")
-    )
+    place = urlsplit(str(files.address(key, 1))).path.removeprefix(f"/{BUCKET}/")
     written = s3_backends[ACCOUNT_ID]["aws"].buckets[BUCKET].keys[place]
     written.last_modified = datetime.now(UTC).replace(tzinfo=None) - timedelta(seconds=seconds)

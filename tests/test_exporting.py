@@ -264,6 +264,7 @@ with opened(Path(sys.argv[1])) as library:
 """
 
 
+@only_folders
 def test_a_disk_that_fills_on_the_way_leaves_nothing(tmp_path: Path) -> None:
     exported(tmp_path)
     (tmp_path / "out").mkdir()

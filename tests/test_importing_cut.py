@@ -18,6 +18,7 @@ from tests.backups import (
     rows_of,
 )
 from tests.commanding import start
+from tests.serving import settings_for
 from tests.storages import make_older
 
 pytestmark = pytest.mark.usefixtures("storage")  # with files in a folder and in a bucket
@@ -54,6 +55,7 @@ with opened(Path(sys.argv[2])) as library:
 
 def test_an_import_that_is_killed_can_be_repeated(tmp_path: Path) -> None:
     archive = exported(tmp_path)
+    settings_for(tmp_path / "to")  # notes in the folder where its files are
     with start(archive, tmp_path / "to", script=KILLED) as process:
         assert process.wait() == 9, process.communicate()
     with opened(tmp_path / "to") as library, opened(tmp_path / "from") as before:
@@ -66,6 +68,7 @@ def test_an_import_that_is_killed_can_be_repeated(tmp_path: Path) -> None:
 
 def test_what_a_killed_import_left_is_swept(tmp_path: Path) -> None:
     archive = exported(tmp_path)
+    settings_for(tmp_path / "to")  # notes in the folder where its files are
     with start(archive, tmp_path / "to", script=KILLED) as process:
         assert process.wait() == 9, process.communicate()
     with opened(tmp_path / "to") as library:
