@@ -111,6 +111,18 @@ class UnknownDatabase(CatalogueError):
     code = "unknown_database"
 
 
+class StorageUnreachable(CatalogueError):
+    """The object storage of the files does not answer, or refuses; later it may not."""
+
+    code = "storage_unreachable"
+
+
+class UnknownStorage(CatalogueError):
+    """The address of the file storage names a kind that is not supported, or a bucket that is not there."""
+
+    code = "unknown_storage"
+
+
 class DamagedIndex(CatalogueError):
     """A saved search index is truncated, altered or of another format."""
 

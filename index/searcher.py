@@ -7,7 +7,7 @@ from threading import Lock
 import numpy.typing as npt
 
 from index.catalogue import Catalogue
-from index.files import FileStore
+from index.local_files import LocalFiles
 from index.method_index import MethodIndex
 from index.methods import Method, method, with_weights
 from index.ranking import Ranked
@@ -30,7 +30,7 @@ class Searcher:
 
     def __init__(self, catalogue: Catalogue, folder: Path) -> None:
         self._catalogue = catalogue
-        self._store = FileStore(folder)
+        self._store = LocalFiles(folder)
         self._store.sweep(_LEFT_BEHIND)
         self._indexes: dict[str, MethodIndex] = {}
         self._opening = Lock()

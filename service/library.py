@@ -2,12 +2,14 @@
 
 import shutil
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from sqlalchemy import Engine
 
 from index.catalogue import Catalogue
 from index.database import make_engine
 from index.errors import StorageFull
+from index.file_places import open_files
 from index.files import FileStore
 from index.migrating import migrate
 from index.queue import Queue
@@ -56,9 +58,14 @@ class Library:
         ----------
         vocabulary : Vocabulary, optional
             For a library that has none yet; the one that ships with the project otherwise.
+
+        Raises
+        ------
+        UnknownStorage, StorageUnreachable, UnknownDatabase
         """
         folder = settings.data_dir
         folder.mkdir(parents=True, exist_ok=True)
+        files = open_files(settings.storage_url, folder / "files")
         engine = make_engine(settings.url, settings.busy_seconds)
         migrate(engine)
         catalogue = Catalogue(engine)
@@ -69,7 +76,7 @@ class Library:
             engine=engine,
             catalogue=catalogue,
             queue=Queue(engine),
-            files=FileStore(folder / "files"),
+            files=files,
             incoming=Incoming(folder / "incoming"),
             reserve=Reserve(folder / "reserve", settings.reserve_bytes // RESERVED),
             searcher=Searcher(catalogue, folder / "index"),
@@ -83,19 +90,28 @@ class Library:
         Parameters
         ----------
         size : int
-            Bytes that are about to be written, twice: on arrival and for good.
+            Bytes that are about to be written: on arrival, and for good where files are kept here.
 
         Raises
         ------
         StorageFull
         """
-        free = shutil.disk_usage(self.settings.data_dir).free
-        if free < self.settings.reserve_bytes + 2 * size:
-            raise StorageFull(
-                f"{free / MIB:.1f} MiB of the disk are free; {2 * size / MIB:.1f} are needed for this, "
-                f"beside {self.settings.reserve_bytes / MIB:.1f} that are left for removals"
-            )
+        for folder, needed in self._written(size).items():
+            free = shutil.disk_usage(folder).free
+            if free < self.settings.reserve_bytes + needed:
+                raise StorageFull(
+                    f"{free / MIB:.1f} MiB of the disk are free; {needed / MIB:.1f} are needed for this, "
+                    f"beside {self.settings.reserve_bytes / MIB:.1f} that are left for removals"
+                )
         self.reserve.fill()
+
+    def _written(self, size: int) -> dict[Path, int]:
+        """Return how many bytes an upload of a size writes, by a folder of each disk of this machine."""
+        arrival, kept = self.settings.data_dir, self.files.folder
+        if kept is None:
+            return {arrival: size}
+        apart = kept.exists() and kept.stat().st_dev != arrival.stat().st_dev  # made on first use
+        return {arrival: size, kept: size} if apart else {arrival: 2 * size}
 
     def close(self) -> None:
         """Save what is only a cache and let go of the rest."""

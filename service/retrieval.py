@@ -1,13 +1,16 @@
 """Use cases, free of HTTP: take a mesh in, change it, remove it, and find what is similar."""
 
+import logging
 import time
 import uuid
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from concurrent.futures import Executor
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from index.errors import StorageUnreachable
 from index.shapes import Shape, Status, StoredFile
 from service.asking import Question, check_question, rank_description, rank_near, rank_query
 from service.intake.submissions import Submission
@@ -22,6 +25,8 @@ from service.remembering import recall, remember
 from service.storage import upload_key
 from worker.describe import MeshFacts
 from worker.reading.upload import inspect_upload
+
+log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -86,12 +91,14 @@ def accept_upload(library: Library, submission: Submission) -> tuple[Shape, bool
             allow_untextured=submission.allow_untextured,
         )
     except BaseException:
-        library.files.delete_all(f"uploads/{upload_id}")
+        with _left_to_sweeper():
+            library.files.delete_all(f"uploads/{upload_id}")
         raise
-    if not new:  # somebody sent the same at the same time
-        library.files.delete_all(f"uploads/{upload_id}")
-    elif known is not None:  # it had failed, and now has new files
-        _delete_files(library, known.files)
+    with _left_to_sweeper():
+        if not new:  # somebody sent the same at the same time
+            library.files.delete_all(f"uploads/{upload_id}")
+        elif known is not None:  # it had failed, and now has new files
+            _delete_files(library, known.files)
     return shape, new
 
 
@@ -135,7 +142,7 @@ def search_upload(
     check_question(question)
     inspect_upload(submission.upload(), library.limits)
     described = executor.submit(
-        describe, submission.paths, submission.allow_untextured, library.parameters, library.limits
+        describe, submission.contents, submission.allow_untextured, library.parameters, library.limits
     ).result()
     found = rank_description(library, described, question)
     query = described_side(described, found.blocks, ((file.name, file.sha256) for file in submission.files))
@@ -177,8 +184,9 @@ def change_shape(
 def remove_shape(library: Library, shape_id: str) -> None:
     """Forget a shape, then delete its files; `service.jobs.sweeping` ends what a crash leaves half done."""
     files = library.reserve.despite_full_disk(lambda: library.catalogue.remove(shape_id))
-    _delete_files(library, files)
-    library.files.delete_all(f"shapes/{shape_id}")
+    with _left_to_sweeper():
+        _delete_files(library, files)
+        library.files.delete_all(f"shapes/{shape_id}")
     library.reserve.fill()
 
 
@@ -191,6 +199,15 @@ def _store(library: Library, upload_id: str, submission: Submission) -> list[Sto
             size, sha256 = library.files.put_stream(key, stream)
         stored.append(StoredFile(name=file.name, key=key, size=size, sha256=sha256))
     return stored
+
+
+@contextmanager
+def _left_to_sweeper() -> Iterator[None]:
+    """Go on where files that nobody needs cannot be deleted now: what was promised does not depend on it."""
+    try:
+        yield
+    except StorageUnreachable as error:
+        log.warning("files are left to the sweeper: %s", error)
 
 
 def _delete_files(library: Library, files: Iterable[StoredFile]) -> None:

@@ -17,6 +17,10 @@ class Settings(BaseSettings):
 
     data_dir: Path = Path("faience-data")  # everything that is kept
     database_url: str | None = None  # SQLite inside data_dir where none is given
+    storage_url: str | None = (
+        None  # of the files: s3://BUCKET/PREFIX or file:///FOLDER; inside data_dir without
+    )
+    presigned: bool = False  # files in a bucket are fetched there, at an address that is good for a while
     busy_seconds: float = Field(default=15, gt=0)  # that a change waits for another program's lock
     host: str = "127.0.0.1"
     port: int = Field(default=8000, ge=0, le=65535)

@@ -6,7 +6,6 @@ from zipfile import ZipFile
 
 import numpy as np
 
-from index.errors import FileMissing
 from index.files import FileStore
 from worker.arrays import SingleArray
 
@@ -48,9 +47,6 @@ def load_signatures(files: FileStore, shape_id: str) -> dict[str, SingleArray]:
 def load_signature(files: FileStore, shape_id: str, name: str) -> SingleArray:
     """Return one signature of a ready shape, without reading the others; FileMissing where there are none."""
     key = derived_key(shape_id, SIGNATURES)
-    try:
-        with ZipFile(files.path(key)) as archive, archive.open(f"{name}.npy") as member:
-            found: SingleArray = np.lib.format.read_array(member, allow_pickle=False)
-    except FileNotFoundError:
-        raise FileMissing(f"no file is kept under {key!r}") from None
+    with files.open(key) as file, ZipFile(file) as archive, archive.open(f"{name}.npy") as member:
+        found: SingleArray = np.lib.format.read_array(member, allow_pickle=False)
     return found

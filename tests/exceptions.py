@@ -18,6 +18,7 @@ from index.errors import (
     LibraryNotEmpty,
     NewerFormat,
     UnknownDatabase,
+    UnknownStorage,
     UnknownVocabulary,
     WebhookNotFound,
 )
@@ -34,6 +35,7 @@ INSIDE = {
     WebhookNotFound,
     BadWebhook,
     UnknownDatabase,
+    UnknownStorage,
     *EXPORTS,
 }
 

@@ -33,10 +33,10 @@ from tests.backups import (
     released,
     rows_of,
 )
-from tests.databases import only_on_sqlite
 from tests.made_migrations import pretend_newer, pretend_older, take_back_steps
+from tests.storages import only_sqlite
 
-pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+pytestmark = pytest.mark.usefixtures("kept")  # on SQLite and on PostgreSQL, and with files in a bucket
 
 
 def answers(library: Library) -> list[Any]:
@@ -103,7 +103,7 @@ def test_an_export_of_the_first_schema_is_brought_to_this_one(
         assert answers(after) == found
 
 
-@only_on_sqlite
+@only_sqlite
 def test_the_steps_between_two_versions_work_on_the_rows(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -118,7 +118,7 @@ def test_the_steps_between_two_versions_work_on_the_rows(
         assert answers(after) == answers(before)
 
 
-@only_on_sqlite
+@only_sqlite
 def test_a_schema_of_a_later_version_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with monkeypatch.context() as patch:
         pretend_newer(patch, tmp_path)
@@ -213,7 +213,7 @@ def test_a_library_that_is_emptied_and_restored_is_searched_anew(tmp_path: Path)
         assert library.catalogue.revision() == last > revision  # whoever watches has heard of no later one
 
 
-@only_on_sqlite
+@only_sqlite
 def test_an_index_that_was_saved_later_is_not_believed(tmp_path: Path) -> None:
     with opened(tmp_path / "lib") as library:
         one, shape = add_ready(library, 10), add_queued(library, 60)

@@ -1,13 +1,15 @@
 """A library is made on first opening and found on the next."""
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
-from index.errors import StorageFull
+from index.errors import StorageFull, UnknownStorage
 from index.vocabulary import default_vocabulary
 from service.library import Library
 from tests.serving import fake_vocabulary, settings_for
+from tests.storages import PLACES
 
 
 def test_a_new_library_starts_with_the_vocabulary_that_ships(tmp_path: Path) -> None:
@@ -40,3 +42,22 @@ def test_a_reserve_of_the_disk_is_kept(tmp_path: Path) -> None:
     with pytest.raises(StorageFull):
         library.check_space(2**60)
     library.close()
+
+
+@pytest.mark.parametrize(("kind", "factor"), [("local", 2), ("s3", 1)])
+def test_an_upload_is_written_twice_where_files_are_kept_and_once_where_they_are_not(
+    kind: str, factor: int, tmp_path: Path, object_server: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(PLACES, "kind", kind)
+    library = Library.open(settings_for(tmp_path, reserve_bytes=0), vocabulary=fake_vocabulary())
+    monkeypatch.setattr("service.library.shutil.disk_usage", lambda _: SimpleNamespace(free=1000 * factor))
+    library.check_space(1000)
+    with pytest.raises(StorageFull):
+        library.check_space(1001)
+    library.close()
+
+
+def test_a_wrong_address_of_the_files_is_refused_at_the_start(tmp_path: Path) -> None:
+    with pytest.raises(UnknownStorage, match="not in 'ftp'"):
+        Library.open(settings_for(tmp_path, storage_url="ftp://host/files"))
+    assert list(tmp_path.iterdir()) == []

@@ -4,7 +4,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from index.files import FileStore
+from index.local_files import LocalFiles
 from index.method_index import MethodIndex
 from index.methods import METHODS
 from tests.catalogues import Opened, add_ready, make_vocabulary, open_catalogue
@@ -24,7 +24,7 @@ def opened(tmp_path: Path) -> Iterator[Opened]:
 
 
 def make_index(opened: Opened, folder: Path) -> MethodIndex:
-    return MethodIndex(METHODS["hks"], opened.catalogue, FileStore(folder / "index"))
+    return MethodIndex(METHODS["hks"], opened.catalogue, LocalFiles(folder / "index"))
 
 
 def answer(found: MethodIndex) -> list[tuple[str, float]]:
@@ -73,13 +73,13 @@ def test_an_unchanged_index_is_written_once(
     found = make_index(opened, tmp_path)
     found.catch_up()
     written: list[str] = []
-    write = FileStore.write
+    write = LocalFiles.write
 
-    def watched(self: FileStore, key: str, fill: object) -> int:
+    def watched(self: LocalFiles, key: str, fill: object) -> int:
         written.append(key)
         return write(self, key, fill)  # type: ignore[arg-type] # handed on as it came
 
-    monkeypatch.setattr(FileStore, "write", watched)
+    monkeypatch.setattr(LocalFiles, "write", watched)
     found.save()
     assert written == []
     again = make_index(opened, tmp_path)

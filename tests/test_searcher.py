@@ -15,7 +15,7 @@ from index.errors import (
     UnknownMethod,
     VocabularyChanged,
 )
-from index.files import FileStore
+from index.local_files import LocalFiles
 from index.methods import METHODS, with_weights
 from index.searcher import Searcher
 from tests.brute_force import METHOD_NAMES, PLAIN, Blocks, add, agrees, brute_force, make_blocks
@@ -264,7 +264,7 @@ def test_a_full_disk_costs_no_answer(opened: Opened, tmp_path: Path, monkeypatch
     def full(*_: object) -> int:
         raise StorageFull("full")
 
-    monkeypatch.setattr(FileStore, "write", full)
+    monkeypatch.setattr(LocalFiles, "write", full)
     searcher = Searcher(opened.catalogue, tmp_path / "index")
     assert agrees(searcher, opened)
     with pytest.raises(StorageFull):  # who asks for saving is told

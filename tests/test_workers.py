@@ -2,14 +2,14 @@
 
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor, Future
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from index.errors import CatalogueBusy, StorageFull
+from index.errors import CatalogueBusy, StorageFull, StorageUnreachable
 from index.shapes import Shape, Status
 from service.app import child_limits
 from service.intake.submissions import receive_paths
@@ -21,7 +21,7 @@ from service.retrieval import accept_upload, remove_shape
 from tests.fakes import coloured_triangle, describe_quickly
 from tests.serving import open_fake_library, settings_for, wait_until
 
-pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+pytestmark = pytest.mark.usefixtures("kept")  # on SQLite and on PostgreSQL, and with files in a bucket
 
 
 @pytest.fixture
@@ -189,9 +189,9 @@ def test_a_shape_removed_while_it_is_described_leaves_no_files(library: Library)
     removed = accept(library, "a.ply")
     other = accept(library, "b.ply", coloured_triangle(9))
 
-    def describe(paths: dict[str, Path], *args: Any) -> Any:
-        description = describe_quickly(paths, *args)
-        if "a.ply" in paths:
+    def describe(files: Mapping[str, bytes], *args: Any) -> Any:
+        description = describe_quickly(files, *args)
+        if "a.ply" in files:
             remove_shape(library, removed)
         return description
 
@@ -205,7 +205,10 @@ def test_a_full_disk_delays_a_result_and_loses_nothing(
     library: Library, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shape_id = accept(library, "a.ply")
-    put, refusals = library.files.put, [StorageFull("full"), CatalogueBusy("locked")]
+    put, refusals = (
+        library.files.put,
+        [StorageFull("full"), CatalogueBusy("locked"), StorageUnreachable("away")],
+    )
 
     def sometimes_full(key: str, data: bytes) -> None:
         if refusals:
@@ -238,9 +241,9 @@ def test_an_error_of_the_queue_does_not_end_the_worker(
 def test_two_workers_never_describe_the_same_shape_twice(library: Library) -> None:
     counted: list[str] = []
 
-    def describe(paths: dict[str, Path], *args: Any) -> Any:
-        counted.append(next(iter(paths)))
-        return describe_quickly(paths, *args)
+    def describe(files: Mapping[str, bytes], *args: Any) -> Any:
+        counted.append(next(iter(files)))
+        return describe_quickly(files, *args)
 
     ids = [accept(library, f"{number}.ply", coloured_triangle(number)) for number in range(12)]
     with Working(library, SameThread(), describe=describe), Working(library, SameThread(), describe=describe):

@@ -1,7 +1,5 @@
 """Which files a shape needs."""
 
-from collections.abc import Iterator
-
 from index.dumping import Belongings
 from index.files import FileStore
 from index.shapes import StoredFile
@@ -25,10 +23,3 @@ def present_files(files: FileStore, shape: Belongings) -> dict[str, StoredFile |
 def made_prefix(shape_id: str) -> str:
     """Return how the keys of what was made for a shape begin."""
     return derived_key(shape_id, "")
-
-
-def pieces_of(files: FileStore, key: str, size: int = 1 << 20) -> Iterator[bytes]:
-    """Yield a file's content; OSError where it cannot be read."""
-    with files.path(key).open("rb") as stream:
-        while piece := stream.read(size):
-            yield piece

@@ -8,10 +8,10 @@ from importlib.metadata import version
 from pathlib import Path
 
 from index.dumping import Belongings, Moment, one_moment
-from index.errors import DamagedExport
+from index.errors import DamagedExport, FileMissing
 from index.portable import line_of
 from index.shapes import StoredFile
-from service.backup.belongings import pieces_of, present_files
+from service.backup.belongings import present_files
 from service.backup.layout import FORMAT, HEADER, Header, file_member, table_member
 from service.backup.summary import Damage, Summary
 from service.backup.writing import ArchiveWriter, writing_archive
@@ -124,8 +124,8 @@ def _add_file(
 
 def _readable(library: Library, key: str) -> Iterator[bytes]:
     try:
-        yield from pieces_of(library.files, key)
-    except FileNotFoundError:
+        yield from library.files.pieces(key)
+    except FileMissing:
         raise Unreadable("file_missing") from None
     except OSError:  # a failing disk, or rights that are missing
         raise Unreadable("file_unreadable") from None

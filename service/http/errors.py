@@ -71,6 +71,7 @@ TABLE: dict[type[Exception], tuple[HTTPStatus, str]] = {
     kept.FingerprintMismatch: (HTTPStatus.CONFLICT, "The numbers belong to other parameters"),
     kept.VocabularyChanged: (HTTPStatus.SERVICE_UNAVAILABLE, "The vocabulary is changing"),
     kept.StorageFull: (HTTPStatus.INSUFFICIENT_STORAGE, "The disk is full"),
+    kept.StorageUnreachable: (HTTPStatus.SERVICE_UNAVAILABLE, "The files cannot be reached"),
     kept.CatalogueBusy: (HTTPStatus.SERVICE_UNAVAILABLE, "The catalogue is busy"),
     OperationalError: (HTTPStatus.SERVICE_UNAVAILABLE, "The catalogue cannot be reached"),
     NoVocabulary: (HTTPStatus.CONFLICT, "There is no vocabulary"),

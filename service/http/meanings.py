@@ -92,5 +92,7 @@ MEANINGS: dict[str, str] = {
     "Try again in a moment; the operator finds more in the log.",
     "storage_full": "The disk is full; nothing of this request was kept. "
     "Remove shapes, or ask the operator for space.",
+    "storage_unreachable": "The object storage that holds the files does not answer, or refuses. Nothing of "
+    "this request was kept. Try again after the seconds in `Retry-After`; the operator's log says more.",
     "internal_error": "The service has a defect, and its log says more. Try again; tell its operator.",
 }

@@ -9,11 +9,11 @@ from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from dataclasses import dataclass
 
-from index.errors import CatalogueBusy, LeaseLost, ShapeNotFound, StorageFull
+from index.errors import CatalogueBusy, LeaseLost, ShapeNotFound, StorageFull, StorageUnreachable
 from index.jobs import Job
 from index.vocabulary import Vocabulary
 from service.jobs.child import ChildError
-from service.jobs.describing import Describe, InWords, describe_files, describe_in_words
+from service.jobs.describing import Describe, InWords, KeptFiles, describe_files, describe_in_words
 from service.jobs.pool import ChildDied, PoolStopped
 from service.jobs.recording import GAVE_UP, UNEXPECTED, UNEXPECTED_DETAIL, record_description
 from service.jobs.sweeping import sweep
@@ -144,12 +144,12 @@ class Worker:
             shape = library.catalogue.get(job.shape_id)
         except ShapeNotFound:  # removed since the claim
             return
-        paths = {file.name: library.files.path(file.key) for file in shape.files}
+        keys = {file.name: file.key for file in shape.files}
         future = self._executor.submit(
             describe_in_words,
             self._describe,
             self._vocabulary(),
-            paths,
+            KeptFiles(library.files, keys),
             shape.allow_untextured,
             library.parameters,
             library.limits,
@@ -177,7 +177,7 @@ class Worker:
         except (LeaseLost, ShapeNotFound) as error:
             log.info("job %s is not ours any more: %s", attempt.job.id, error)
             return
-        except (StorageFull, CatalogueBusy) as error:
+        except (StorageFull, StorageUnreachable, CatalogueBusy) as error:
             log.warning("shape %s waits: %s", attempt.job.shape_id, error)
             self._hand_back(attempt.job)
             self._stopping.wait(self._library.settings.lease_seconds / 3)
