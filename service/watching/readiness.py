@@ -10,6 +10,7 @@ log = logging.getLogger(__name__)
 
 OK = "ok"
 KEPT_SECONDS = 1.0  # for which an answer holds
+BAD_PART = 0.1  # of that time for which a bad one does: what is well again, or loaded, is soon seen
 
 
 class NotWell(Exception):
@@ -51,8 +52,8 @@ class Readiness:
         Parts without which nothing can be served.
     told : mapping of str to callable
         Parts that are told of in words, and do not matter for the answer.
-    kept_seconds : float
-        For which an answer holds.
+    kept_seconds : float, optional
+        For which an answer holds; a second by default.
     """
 
     def __init__(
@@ -60,14 +61,14 @@ class Readiness:
         checks: Sequence[Check],
         told: Mapping[str, Callable[[], str]] | None = None,
         *,
-        kept_seconds: float = KEPT_SECONDS,
+        kept_seconds: float | None = None,
     ) -> None:
         self._asked = [_Asked(check) for check in checks]
         self._told = told or {}
-        self._kept_seconds = kept_seconds
+        self._kept_seconds = KEPT_SECONDS if kept_seconds is None else kept_seconds
         self._lock = threading.Lock()
         self._parts: dict[str, str] = {}
-        self._at = -float("inf")  # by the monotonic clock
+        self._until = -float("inf")  # by the monotonic clock
         self.shutting_down = False  # set where the process is told to end
 
     def look(self) -> dict[str, str]:
@@ -86,11 +87,12 @@ class Readiness:
 
     def _of_checks(self) -> dict[str, str]:
         with self._lock:
-            if time.monotonic() - self._at >= self._kept_seconds:
+            if time.monotonic() >= self._until:
                 for asked in self._asked:
                     asked.begin()
                 self._note({asked.check.name: asked.words() for asked in self._asked})
-                self._at = time.monotonic()
+                well = all(words == OK for words in self._parts.values())
+                self._until = time.monotonic() + self._kept_seconds * (1 if well else BAD_PART)
             return dict(self._parts)
 
     def _note(self, parts: dict[str, str]) -> None:
