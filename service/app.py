@@ -11,6 +11,7 @@ from importlib.metadata import version
 
 from anyio import CapacityLimiter, to_thread
 from fastapi import APIRouter, Depends, FastAPI
+from fastapi.telemetry import TelemetryConfig
 
 from index.keys import Keys
 from index.rehearsal import rehearse as rehearse_search
@@ -60,6 +61,9 @@ from service.watching.readiness import OK, Readiness
 from service.watching.spans import Spans, open_spans
 from service.why.sides import rehearse as rehearse_why
 
+# FastAPI's own traces would hold what was searched for, and its own log the words of exceptions.
+SILENT: TelemetryConfig = {"tracing": False, "metrics": False, "logs": False, "auto_configure": False}
+
 OpenLibrary = Callable[[Settings], Library]
 RANKINGS = 2 * (os.cpu_count() or 1)  # threads that rank: more would only take turns
 SILENCE = 60.0  # seconds after which a worker that does nothing is worth a word
@@ -101,6 +105,7 @@ def create_app(
         lifespan=lifespan,
         docs_url=None,  # FastAPI's own pages load scripts from elsewhere; ours is in routes.page
         redoc_url=None,
+        telemetry=SILENT,
     )
     app.add_middleware(LimitBodyTime, idle_seconds=settings.body_idle_seconds, seconds=settings.body_seconds)
     app.add_middleware(AnswerUnexpected)
