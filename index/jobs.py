@@ -20,6 +20,7 @@ class Job:
 
     id: int  # never given twice
     shape_id: str  # what to work on
+    queued_at: datetime | None  # UTC; whatever became of earlier claims; None of an earlier version
     attempts: int  # claims so far, this one too
     lease_until: datetime  # UTC; another worker may take the job after this
     worker: str  # who holds it

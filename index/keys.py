@@ -34,6 +34,7 @@ class ActiveKey:
     id: str
     digest: bytes = field(repr=False)  # SHA-256 of the key
     scope: Scope
+    name: str = ""  # whose it is, for the log
 
 
 class Keys:
@@ -92,11 +93,12 @@ class Keys:
 
     def active(self) -> tuple[ActiveKey, ...]:
         """Return the keys that open, for a guard's comparison."""
-        columns = ApiKeyRow.id, ApiKeyRow.digest, ApiKeyRow.scope
+        columns = ApiKeyRow.id, ApiKeyRow.digest, ApiKeyRow.scope, ApiKeyRow.name
         with reading(self._engine) as session:
             rows = session.execute(select(*columns).where(ApiKeyRow.revoked_at.is_(None)))
             return tuple(
-                ActiveKey(id=key_id, digest=digest, scope=Scope(scope)) for key_id, digest, scope in rows
+                ActiveKey(id=key_id, digest=digest, scope=Scope(scope), name=name)
+                for key_id, digest, scope, name in rows
             )
 
 

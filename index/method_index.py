@@ -46,6 +46,12 @@ class MethodIndex:
         self._state: CatalogueState | None = None  # what the view shows at least; None before the first time
         self._saved: CatalogueState | None = None  # what the file shows
 
+    @property
+    def revision(self) -> int | None:
+        """Which revision of the catalogue the view shows at least; None before it was asked for."""
+        state = self._state
+        return None if state is None else state.revision
+
     def catch_up(self) -> None:
         """Bring the view to what the catalogue is now; one cheap SELECT where nothing is new."""
         wanted = self._catalogue.state()

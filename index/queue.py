@@ -139,6 +139,7 @@ def _job_of(row: JobRow) -> Job:
     return Job(
         id=row.id,
         shape_id=row.shape_id,
+        queued_at=row.queued_at,
         attempts=row.attempts,
         lease_until=row.lease_until,
         worker=row.worker,

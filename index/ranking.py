@@ -21,6 +21,7 @@ from index.distances import distances
 from index.methods import Method
 from index.sketch import Sketch
 from index.vectors import Vectors
+from index.watch import tell_compared
 
 FIRST = 4  # times as many rows as are wanted give the first limit
 SECOND = 16  # times as many give the second, where more are left
@@ -60,9 +61,9 @@ def rank(
     if wanted <= 0:
         return []
     search = _Search(vectors, query, wanted, hidden, method or vectors.layout.method)
-    if vectors.sketch is None:
-        return search.best(vectors.here)
-    return search.certified(vectors.sketch)
+    found = search.best(vectors.here) if vectors.sketch is None else search.certified(vectors.sketch)
+    tell_compared(search.method.name, search.compared, len(vectors), search.escalated)
+    return found
 
 
 class _Search:
@@ -76,6 +77,8 @@ class _Search:
         self.wanted = wanted
         self.hidden = hidden
         self.method = method
+        self.compared = 0  # rows, exactly
+        self.escalated = False  # whether the first limits left too many
 
     def certified(self, sketch: Sketch) -> Ranked:
         candidates = Candidates(sketch, self.query, self.method, self.vectors.largest)
@@ -84,6 +87,7 @@ class _Search:
         limit = min(limit, self.limit(candidates.by_rows(limit, FIRST * enough)))
         positions, bounds = candidates.within(limit)
         if len(positions) > 2 * SECOND * enough:
+            self.escalated = True
             least = np.argpartition(bounds, SECOND * enough)[: SECOND * enough]
             limit = min(limit, self.limit(positions[least]))
             positions = positions[bounds <= limit * (1.0 + MARGIN)]
@@ -112,4 +116,5 @@ class _Search:
         return positions[~np.isin(positions, self.hidden)] if self.hidden.size else positions
 
     def distances(self, positions: PositionArray) -> DoubleArray:
+        self.compared += len(positions)
         return distances(self.vectors.rows, positions, self.query, self.vectors.layout, self.method)

@@ -11,6 +11,9 @@ from index.local_files import LocalFiles
 from index.method_index import MethodIndex
 from index.methods import Method, method, with_weights
 from index.ranking import Ranked
+from index.watch import stage
+
+CATCH_UP, RANK = "catch_up", "rank"  # stages of a search
 
 _LEFT_BEHIND = 3600.0  # seconds after which a half-written index file is nobody's
 
@@ -75,8 +78,26 @@ class Searcher:
         base = method(method_name)
         asked = with_weights(base, weights or {})
         found = self._index_of(base)
-        found.catch_up()
-        return found.rank(asked, query_blocks, limit, exclude, vocabulary_id)
+        with stage(CATCH_UP, method_name):
+            found.catch_up()
+        with stage(RANK, method_name):
+            return found.rank(asked, query_blocks, limit, exclude, vocabulary_id)
+
+    def load(self, method_name: str) -> None:
+        """Have a method's index ready before it is asked for.
+
+        Raises
+        ------
+        UnknownMethod
+        """
+        self._index_of(method(method_name)).catch_up()
+
+    def revisions(self) -> dict[str, int]:
+        """Return the catalogue's revision that each loaded index shows, by method."""
+        with self._opening:
+            loaded = dict(self._indexes)
+        shown = {name: each.revision for name, each in loaded.items()}
+        return {name: revision for name, revision in shown.items() if revision is not None}
 
     def save(self) -> None:
         """Keep every index that is loaded for the next run."""

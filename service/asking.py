@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from index.errors import FileMissing, FingerprintMismatch, VocabularyChanged
 from index.methods import DEFAULT_METHOD, method, with_weights
+from index.watch import stage
 from service.library import Library
 from service.quantisation import quantise, require_same
 from service.refining import LANDMARKS, QUERY_LADDER, QueryLandmarks, Ranked, refine
@@ -13,6 +14,7 @@ from service.vocabularies import active_vocabulary, known_vocabulary
 from worker.arrays import SingleArray
 from worker.describe import Description
 
+REFINE = "refine"  # the stage of a query after those of `index.searcher`
 ATTEMPTS = 5  # at a query while vocabularies change
 
 Blocks = Mapping[str, SingleArray]
@@ -127,8 +129,9 @@ def _rank(
     ranked, blocks, vocabulary_id = _search(library, question, query, max(question.limit, first), exclude)
     near: tuple[str, ...] = tuple(shape_id for shape_id, _ in ranked[:first])
     if near:
-        stored = library.catalogue.one_block(near, LANDMARKS)
-        ranked = refine(ranked, landmarks(blocks), stored, first)
+        with stage(REFINE, question.method):
+            stored = library.catalogue.one_block(near, LANDMARKS)
+            ranked = refine(ranked, landmarks(blocks), stored, first)
     ranked = ranked[: question.limit]
     shown = {shape_id for shape_id, _ in ranked}
     registered = tuple(shape_id for shape_id in near if shape_id in shown)

@@ -16,6 +16,7 @@ from service.settings import Settings, is_loopback
 
 log = logging.getLogger(__name__)
 
+ENVIRONMENT = "environment"  # name of every key that came with the start
 LOOK_EVERY = 1.0  # seconds between two looks at the library's keys
 PATIENCE = 60.0  # seconds for which the last look still counts
 
@@ -38,6 +39,7 @@ class Holder:
 
     identity: str  # of the key, the same with every request; not the key itself
     scope: Scope
+    name: str = ""  # whose key it is, for the log
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -69,7 +71,7 @@ class KeyRing:
         self, settings: Settings, active: Callable[[], Sequence[ActiveKey]], *, patience: float = PATIENCE
     ) -> None:
         self._given = tuple(
-            ActiveKey(id=f"given:{digest.hex()[:16]}", digest=digest, scope=Scope.WRITE)
+            ActiveKey(id=f"given:{digest.hex()[:16]}", digest=digest, scope=Scope.WRITE, name=ENVIRONMENT)
             for digest in settings.key_digests
         )
         self._nobody = ActiveKey(id="", digest=secrets.token_bytes(32), scope=Scope.READ)
@@ -82,6 +84,11 @@ class KeyRing:
     def demanded(self) -> bool:
         """Whether requests need a key."""
         return self._look.demanded
+
+    @property
+    def readable(self) -> bool:
+        """Whether the library's keys were read lately enough to go by them."""
+        return time.monotonic() - self._look.at <= self._patience
 
     def holder_of(self, secret: bytes | None) -> Holder | None:
         """Return whose key a request brought; None where none is needed.
@@ -155,4 +162,4 @@ class KeyRing:
 
 
 def _holder(key: ActiveKey) -> Holder:
-    return Holder(identity=key.id, scope=key.scope)
+    return Holder(identity=key.id, scope=key.scope, name=key.name)

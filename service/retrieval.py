@@ -12,6 +12,7 @@ from typing import Any
 
 from index.errors import StorageUnreachable
 from index.shapes import Shape, Status, StoredFile
+from index.watch import stage
 from service.asking import Question, check_question, rank_description, rank_near, rank_query
 from service.intake.submissions import Submission
 from service.jobs.describing import Describe, describe_files
@@ -27,6 +28,8 @@ from worker.describe import MeshFacts
 from worker.reading.upload import inspect_upload
 
 log = logging.getLogger(__name__)
+
+DESCRIBE, RELATIONS = "describe", "relations"  # stages of a query before and after those of `service.asking`
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -112,7 +115,8 @@ def find_similar(library: Library, shape_id: str, question: Question) -> Answer:
     start = time.perf_counter()
     found = rank_near(library, shape_id, question)
     asked = found.registered if question.relations else ()
-    related = relate_stored(library, shape_id, asked, found.vocabulary_id)
+    with stage(RELATIONS, question.method):
+        related = relate_stored(library, shape_id, asked, found.vocabulary_id)
     return _answer(library, question, found.ranked, related, start)
 
 
@@ -141,13 +145,15 @@ def search_upload(
     start = time.perf_counter()
     check_question(question)
     inspect_upload(submission.upload(), library.limits)
-    described = executor.submit(
-        describe, submission.contents, submission.allow_untextured, library.parameters, library.limits
-    ).result()
+    with stage(DESCRIBE, question.method):
+        described = executor.submit(
+            describe, submission.contents, submission.allow_untextured, library.parameters, library.limits
+        ).result()
     found = rank_description(library, described, question)
     query = described_side(described, found.blocks, ((file.name, file.sha256) for file in submission.files))
     asked = found.registered if question.relations else ()
-    related = relate(library, query, asked, found.vocabulary_id)
+    with stage(RELATIONS, question.method):
+        related = relate(library, query, asked, found.vocabulary_id)
     query_id = (
         remember(library, submission, described, found.blocks, found.vocabulary_id) if remembered else None
     )
@@ -168,8 +174,9 @@ def find_remembered(library: Library, query_id: str, question: Question) -> Answ
     found = rank_query(library, partial(in_active_words, library, query), query.ladder, question)
     related: Mapping[str, Related] = {}
     if question.relations:
-        side = remembered_side(library, query, found.blocks)
-        related = relate(library, side, found.registered, found.vocabulary_id)
+        with stage(RELATIONS, question.method):
+            side = remembered_side(library, query, found.blocks)
+            related = relate(library, side, found.registered, found.vocabulary_id)
     asked = Asked(id=query.id, name=query.name, facts=query.facts)
     return _answer(library, question, found.ranked, related, start, asked)
 

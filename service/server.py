@@ -9,6 +9,7 @@ import uvicorn
 from fastapi import FastAPI
 
 from service.app import child_limits, create_app, telling_webhooks
+from service.draining import DrainingServer
 from service.file_limit import raise_file_limit
 from service.first_run import Report, show_samples
 from service.http.connections import BoundedConnection
@@ -18,6 +19,11 @@ from service.library import Library
 from service.listening import check_listening
 from service.samples import count_samples, make_samples
 from service.settings import Settings
+from service.watching.jobs import JobsSeen
+from service.watching.logs import start_logging
+from service.watching.metrics import Metrics
+from service.watching.metrics_server import serving_metrics
+from service.watching.spans import open_spans
 
 log = logging.getLogger(__name__)
 
@@ -43,10 +49,10 @@ def run_server(settings: Settings, workers: int, samples: bool, report: Report =
     """
     settings = settings.model_copy(update={"workers": workers})
     check_listening(settings)
-    _log_to_console()
+    start_logging(settings.log)
     raise_file_limit()
     app = create_app(settings)
-    server = uvicorn.Server(_config(app, settings))
+    server = DrainingServer(_config(app, settings), settings.drain_seconds, lambda: app.state.services)
     threading.Thread(target=_accompany, args=(app, server, samples, report), daemon=True).start()
     with contextlib.suppress(KeyboardInterrupt):  # uvicorn raises it again after a clean stop
         server.run()
@@ -85,25 +91,38 @@ def _accompany(app: FastAPI, server: uvicorn.Server, samples: bool, report: Repo
         log.exception("the sample library could not be made")
 
 
-def run_worker(settings: Settings, workers: int, stop: threading.Event) -> None:
-    """Work on a library's queue until ``stop`` is set; unfinished jobs go back to the queue."""
-    _log_to_console()
+def run_worker(
+    settings: Settings, workers: int, stop: threading.Event, report: Report = lambda *_: None
+) -> None:
+    """Work on a library's queue until ``stop`` is set; unfinished jobs go back to the queue.
+
+    Parameters
+    ----------
+    workers : int
+        Jobs at the same time.
+    report : callable
+        Takes a line for the user.
+    """
+    start_logging(settings.log)
     library = Library.open(settings)
+    metrics, spans = Metrics(), open_spans()
     pool = ProcessPerJob(slots=workers, limits=child_limits(settings))
-    worker = Worker(library, pool, slots=workers, name=process_name())
+    worker = Worker(
+        library,
+        pool,
+        slots=workers,
+        name=process_name(),
+        observe=metrics.observe_job,
+        watch=JobsSeen(metrics, spans, lines=settings.log == "json"),
+    )
     thread = threading.Thread(target=worker.run, name="worker")
     thread.start()
     try:
-        with telling_webhooks(library):
+        with telling_webhooks(library), serving_metrics(metrics, library, report):
             stop.wait()
     finally:
-        worker.stop()
+        worker.stop(settings.finish_seconds)
         thread.join()  # it gives its jobs back first, while the pool still takes what it submits
         pool.shutdown(cancel_futures=True)
+        spans.close()
         library.close()
-
-
-def _log_to_console() -> None:
-    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(levelname)s %(name)s: %(message)s")
-    for noisy in ("alembic", "uvicorn.access"):
-        logging.getLogger(noisy).setLevel(logging.WARNING)

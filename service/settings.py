@@ -2,7 +2,7 @@
 
 from ipaddress import ip_address
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field, SecretStr, field_validator
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
@@ -43,6 +43,11 @@ class Settings(BaseSettings):
     poll_seconds: float = Field(default=0.5, gt=0)  # how often an idle worker looks for jobs
     search_slots: int = Field(default=2, ge=1)  # meshes of `search` described at the same time
     search_queue: int = Field(default=8, ge=0)  # others that may wait; more are told to come back
+
+    log: Literal["text", "json"] = "text"  # lines for people, or one JSON object a line
+    metrics_port: int | None = Field(default=None, ge=0, le=65535)  # of a worker without an API
+    drain_seconds: float = Field(default=0, ge=0)  # of service after a signal, while /readyz says no
+    finish_seconds: float = Field(default=0, ge=0)  # in which running jobs may end after a signal
 
     @field_validator("api_keys", mode="before")
     @classmethod

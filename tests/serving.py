@@ -14,6 +14,7 @@ import uvicorn
 
 from index.vocabulary import Vocabulary, learn_vocabulary
 from service.app import create_app
+from service.draining import DrainingServer
 from service.http.connections import BoundedConnection
 from service.http.dependencies import Services
 from service.jobs.describing import Describe
@@ -58,8 +59,9 @@ def open_fake_library(settings: Settings) -> Library:
 class Serving:
     """A running service and a client of it."""
 
-    def __init__(self, services: Services, client: httpx.Client) -> None:
-        self.library, self.turnstile, self.client = services.library, services.turnstile, client
+    def __init__(self, services: Services, client: httpx.Client, server: DrainingServer) -> None:
+        self.services, self.client, self.server = services, client, server
+        self.library, self.turnstile = services.library, services.turnstile
 
     @property
     def address(self) -> Address:
@@ -97,18 +99,19 @@ def serving(
     describe: Describe = describe_quickly,
     open_library: Callable[[Settings], Library] = open_fake_library,
     connection: type[BoundedConnection] = BoundedConnection,
+    drain_seconds: float = 0,
 ) -> Iterator[Serving]:
     """Run the service; stop it cleanly at the end."""
     app = create_app(settings, open_library=open_library, describe=describe)
     config = uvicorn.Config(app, http=connection, port=0, log_config=None, timeout_graceful_shutdown=5)
-    server = uvicorn.Server(config)
+    server = DrainingServer(config, drain_seconds, lambda: app.state.services)
     thread = threading.Thread(target=server.run)
     thread.start()
     try:
         wait_until(lambda: server.started or not thread.is_alive())
         port = server.servers[0].sockets[0].getsockname()[1]
         with httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=PATIENCE) as client:
-            yield Serving(app.state.services, client)
+            yield Serving(app.state.services, client, server)
     finally:
         server.should_exit = True
         thread.join()

@@ -12,23 +12,43 @@ from index.revisions import now
 from index.tables import JobRow
 from tests.fakes import coloured_triangle
 from tests.problems import problem
-from tests.serving import serving, settings_for
+from tests.serving import serving, settings_for, wait_until
+
+WELL = {"catalogue": "ok", "files": "ok", "keys": "ok", "index": "ok", "worker": "is none here"}
 
 
-def test_ready_says_whether_the_catalogue_answers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_ready_names_each_part_and_the_one_that_is_not(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("service.watching.readiness.KEPT_SECONDS", 0.0)
     with serving(settings_for(tmp_path, workers=0)) as running:
         assert running.client.get("/livez").json() == {"status": "ok"}
-        assert running.client.get("/readyz").json() == {"status": "ok"}
+        wait_until(lambda: running.client.get("/readyz").status_code == 200)  # the index is loaded
+        assert running.client.get("/readyz").json() == {"status": "ok", "parts": WELL}
 
         def away() -> int:
             raise OperationalError("SELECT", {}, Exception("secret host is away"))
 
         monkeypatch.setattr(running.library.catalogue, "revision", away)
         answer = running.client.get("/readyz")
-        detail = problem(answer, 503, "busy")
-        assert "secret" not in detail
+        assert "catalogue cannot be used" in problem(answer, 503, "unready")
+        assert "secret" not in answer.text
+        assert {name for name, words in answer.json()["parts"].items() if words != "ok"} == {"catalogue"}
         assert answer.headers["retry-after"]
         assert running.client.get("/livez").status_code == 200
+
+
+def test_the_worker_is_told_of(tmp_path: Path) -> None:
+    with serving(settings_for(tmp_path)) as running:
+        wait_until(lambda: running.client.get("/readyz").status_code == 200)
+        assert running.client.get("/readyz").json()["parts"]["worker"] == "ok"
+
+
+def test_a_process_that_was_told_to_end_is_not_ready_and_still_answers(tmp_path: Path) -> None:
+    with serving(settings_for(tmp_path, workers=0)) as running:
+        running.services.readiness.shutting_down = True
+        problem(running.client.get("/readyz"), 503, "shutting_down")
+        assert running.client.get("/v1/shapes").status_code == 200
 
 
 def test_metrics_count_requests_by_route_and_jobs_by_outcome(tmp_path: Path) -> None:

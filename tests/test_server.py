@@ -22,6 +22,8 @@ from service.settings import Settings
 from soak.processes import alive, descendants
 from tests.fakes import coloured_triangle
 from tests.serving import open_fake_library, settings_for, wait_until
+from tests.small_library import good_mesh
+from worker.stages import STAGES
 
 ROOT = Path(__file__).parents[1]
 SCRIPT = """
@@ -130,17 +132,27 @@ def test_other_machines_are_not_let_in_without_a_key(host: str, tmp_path: Path) 
     assert not (tmp_path / "library").exists()
 
 
-def test_a_worker_alone_works_on_the_queue_until_it_is_stopped(tmp_path: Path) -> None:
-    settings = settings_for(tmp_path / "library")
+def test_a_worker_alone_works_on_the_queue_until_it_is_stopped_and_tells_its_numbers(tmp_path: Path) -> None:
+    settings = settings_for(tmp_path / "library", metrics_port=0)
     library = open_fake_library(settings)
     sent = tmp_path / "a.ply"
-    sent.write_bytes(coloured_triangle())
+    sent.write_bytes(good_mesh(1)["good.ply"])
     shape, _ = accept_upload(library, receive_paths({"a.ply": sent}))
-    stop = threading.Event()
-    worker = threading.Thread(target=run_worker, args=(settings, 1, stop))
+    stop, lines = threading.Event(), list[str]()
+    worker = threading.Thread(target=run_worker, args=(settings, 1, stop, lines.append))
     worker.start()
-    wait_until(lambda: library.catalogue.get(shape.id).status in ("ready", "failed"))
-    stop.set()
-    worker.join()
+    try:
+        wait_until(lambda: library.catalogue.get(shape.id).status in ("ready", "failed"))
+        (url,) = (word for line in lines for word in line.split() if word.startswith("http://127.0.0.1:"))
+        wait_until(lambda: "faience_jobs_total{" in httpx.get(url).text)
+        numbers = httpx.get(url).text
+    finally:
+        stop.set()
+        worker.join()
     assert library.catalogue.get(shape.id).status == "ready"
     library.close()
+    for stage in (*STAGES, "recording"):
+        assert f'faience_job_stage_seconds_count{{stage="{stage}"}} 1.0' in numbers
+    assert "faience_queue_depth 0.0" in numbers
+    with pytest.raises(httpx.ConnectError):
+        httpx.get(url)

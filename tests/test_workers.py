@@ -3,23 +3,26 @@
 import threading
 import time
 from collections.abc import Callable, Iterator, Mapping
-from concurrent.futures import Executor, Future
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from index.errors import CatalogueBusy, StorageFull, StorageUnreachable
+from index.jobs import Job
 from index.shapes import Shape, Status
 from service.app import child_limits
 from service.intake.submissions import receive_paths
 from service.jobs.child import ChildError
+from service.jobs.ended import EndedJob, JobWatch
 from service.jobs.pool import ProcessPerJob
 from service.jobs.workers import Attempt, Worker
 from service.library import Library
 from service.retrieval import accept_upload, remove_shape
 from tests.fakes import coloured_triangle, describe_quickly
 from tests.serving import open_fake_library, settings_for, wait_until
+from worker.errors import Code, MeshError
 
 pytestmark = pytest.mark.usefixtures("kept")  # on SQLite and on PostgreSQL, and with files in a bucket
 
@@ -58,6 +61,7 @@ class Working:
 
     def __init__(self, library: Library, executor: Executor, **options: Any) -> None:
         self.outcomes: list[str] = []
+        self.finish_seconds = 0.0
         self.worker = Worker(
             library,
             executor,
@@ -77,7 +81,7 @@ class Working:
 
     def __exit__(self, *_: object) -> None:
         """Stop it; it must end by itself."""
-        self.worker.stop()
+        self.worker.stop(self.finish_seconds)
         self.thread.join()
 
 
@@ -183,6 +187,65 @@ def test_stopping_gives_unfinished_jobs_back_at_once(library: Library, pool: Pro
     job = library.queue.claim("next", 1)
     assert job is not None
     assert job.attempts == 1  # the one that was stopped does not count
+
+
+def test_with_time_to_finish_running_jobs_end_and_the_others_go_back(library: Library) -> None:
+    begun, release = threading.Event(), threading.Event()
+
+    def describe(*args: Any) -> Any:
+        begun.set()
+        release.wait(60)
+        return describe_quickly(*args)
+
+    running, waiting = accept(library, "a.ply"), accept(library, "b.ply", coloured_triangle(9))
+    with ThreadPoolExecutor(1) as one, Working(library, one, describe=describe) as working:
+        begun.wait(60)
+        wait_until(lambda: library.catalogue.get(waiting).status == Status.PROCESSING)  # claimed ahead
+        working.finish_seconds = 3600
+        working.worker.stop(3600)
+        wait_until(lambda: library.catalogue.get(waiting).status == Status.QUEUED)
+        assert library.catalogue.get(running).status == Status.PROCESSING
+        release.set()
+    assert library.catalogue.get(running).status == Status.READY
+    job = library.queue.claim("next", 1)
+    assert job is not None
+    assert (job.shape_id, job.attempts) == (waiting, 1)
+
+
+def test_the_time_to_finish_ends(library: Library, pool: ProcessPerJob) -> None:
+    shape_id = accept(library, "hang.ply")
+    with Working(library, pool) as working:
+        wait_until(lambda: library.catalogue.get(shape_id).status == Status.PROCESSING)
+        working.finish_seconds = 0.1
+    assert library.catalogue.get(shape_id).status == Status.QUEUED
+
+
+def test_the_watch_hears_of_claims_ends_and_stages(library: Library) -> None:
+    class Heard(JobWatch):
+        def __init__(self) -> None:
+            self.claims: list[str] = []
+            self.ends: list[EndedJob] = []
+
+        def claimed(self, job: Job) -> None:
+            self.claims.append(job.shape_id)
+
+        def ended(self, job: EndedJob) -> None:
+            self.ends.append(job)
+
+    def describe(files: Mapping[str, bytes], *args: Any) -> Any:
+        if "b.ply" in files:
+            raise MeshError(Code.ZERO_AREA, "nothing is left")
+        return describe_quickly(files, *args)
+
+    good, bad = accept(library, "a.ply"), accept(library, "b.ply", coloured_triangle(9))
+    heard = Heard()
+    with Working(library, SameThread(), watch=heard, describe=describe):
+        settled(library, bad)
+        wait_until(lambda: len(heard.ends) == 2)
+    assert heard.claims == [good, bad]
+    assert [each.outcome for each in heard.ends] == ["ready", "zero_area"]
+    assert [each.name for each in heard.ends[0].stages] == ["recording"]  # these descriptions tell none
+    assert heard.ends[0].claimed_at <= heard.ends[0].ended_at
 
 
 def test_a_shape_removed_while_it_is_described_leaves_no_files(library: Library) -> None:

@@ -13,6 +13,7 @@ from worker.descriptors.landmarks import pack, place_landmarks
 from worker.descriptors.meshhog import mesh_features
 from worker.geometry.repair import Repaired, repair
 from worker.geometry.resampling import face_areas
+from worker.geometry.spectrum import Eigenpairs
 from worker.intrinsic import Intrinsic, describe_triangles, distribution, signatures_at
 from worker.parameters import Parameters
 from worker.pictures.preview import preview
@@ -21,6 +22,7 @@ from worker.reading.limits import Limits
 from worker.reading.mesh import Mesh
 from worker.reading.upload import Upload, read_mesh
 from worker.solving import solve_joint
+from worker.stages import DESCRIPTORS, PICTURES, READ, REPAIR, SPECTRUM, stage
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,17 +72,22 @@ def describe(
     MeshError
         Where the mesh is refused.
     """
-    mesh = read_mesh(upload, limits)
-    repaired = repair(mesh)
-    surface = canonical_surface(mesh, repaired, parameters)
+    with stage(READ):
+        mesh = read_mesh(upload, limits)
+    with stage(REPAIR):
+        repaired = repair(mesh)
+        surface = canonical_surface(mesh, repaired, parameters)
     blocks, signatures = describe_surface(surface, parameters)
+    with stage(PICTURES):
+        small = thumbnail(mesh, repaired)
+        whole = preview(surface.vertices, surface.faces, surface.srgb)
     return Description(
         fingerprint=parameters.fingerprint(),
         facts=_facts(mesh, repaired),
         blocks=in_single_precision(blocks),
         signatures=in_single_precision(signatures),
-        thumbnail=thumbnail(mesh, repaired),
-        preview=preview(surface.vertices, surface.faces, surface.srgb),
+        thumbnail=small,
+        preview=whole,
     )
 
 
@@ -106,10 +113,25 @@ def describe_surface(
         ``meshhog`` (f, 96), of L.
     """
     shared = intrinsic or describe_triangles(surface.vertices, surface.faces, parameters)
+    with stage(SPECTRUM):
+        spectra = _spectra(surface, shared, parameters)
+    with stage(DESCRIPTORS):
+        return _blocks(surface, shared, parameters), _signatures(surface, shared, spectra, parameters)
+
+
+def _spectra(surface: Surface, shared: Intrinsic, parameters: Parameters) -> dict[float, Eigenpairs]:
+    """Return the eigenpairs at each weight of colour."""
+    return {
+        weight: solve_joint(surface.vertices, surface.faces, surface.lab, weight, parameters)
+        for weight in {*parameters.colour_weights, *parameters.distance_weights} - {0.0}
+    } | {0.0: shared.spectrum}
+
+
+def _blocks(surface: Surface, shared: Intrinsic, parameters: Parameters) -> dict[str, FloatArray]:
     placed = place_landmarks(
         surface.vertices, shared.landmarks, shared.areas, surface.lab, parameters.landmarks
     )
-    blocks = {
+    return {
         "landmarks": pack(shared.signatures["landmark-ladder"], placed).ravel(),
         "colour-histogram": join_bins(
             lab_histogram(surface.sample_lab, parameters.histogram_bins, parameters.histogram_smoothing),
@@ -121,10 +143,11 @@ def describe_surface(
             colour_curves(shared.orders, surface.lab, shared.areas, parameters.curve_bins)
         ),
     }
-    spectra = {
-        weight: solve_joint(surface.vertices, surface.faces, surface.lab, weight, parameters)
-        for weight in {*parameters.colour_weights, *parameters.distance_weights} - {0.0}
-    } | {0.0: shared.spectrum}
+
+
+def _signatures(
+    surface: Surface, shared: Intrinsic, spectra: Mapping[float, Eigenpairs], parameters: Parameters
+) -> dict[str, FloatArray]:
     signatures = dict(shared.signatures)
     for weight, spectrum in sorted(spectra.items()):
         signatures[f"eigenvalues-{weight:g}"] = spectrum.eigenvalues
@@ -134,7 +157,7 @@ def describe_surface(
     signatures["diffusion-joint"] = distribution(
         [spectra[weight] for weight in parameters.distance_weights], shared.samples, shared.shares, parameters
     )
-    return blocks, signatures
+    return signatures
 
 
 def _facts(mesh: Mesh, repaired: Repaired) -> MeshFacts:

@@ -13,6 +13,7 @@ from worker.geometry.sampling import cell_areas, farthest_points
 from worker.geometry.spectrum import Eigenpairs
 from worker.parameters import Parameters
 from worker.solving import areas_of, solve_joint
+from worker.stages import DESCRIPTORS, SPECTRUM, stage
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -42,7 +43,15 @@ def describe_triangles(vertices: FloatArray, faces: IntArray, parameters: Parame
     Intrinsic
     """
     areas = areas_of(vertices, faces)
-    spectrum = solve_joint(vertices, faces, np.zeros_like(vertices), 0.0, parameters)
+    with stage(SPECTRUM):
+        spectrum = solve_joint(vertices, faces, np.zeros_like(vertices), 0.0, parameters)
+    with stage(DESCRIPTORS):
+        return _intrinsic(vertices, areas, spectrum, parameters)
+
+
+def _intrinsic(
+    vertices: FloatArray, areas: FloatArray, spectrum: Eigenpairs, parameters: Parameters
+) -> Intrinsic:
     samples = farthest_points(vertices, parameters.distance_samples)
     shares = cell_areas(vertices, samples, areas)
     landmarks = samples[: parameters.landmarks]  # the farthest points of fewer are the first of many

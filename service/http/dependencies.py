@@ -12,13 +12,14 @@ from fastapi.security import HTTPAuthorizationCredentials
 from index.methods import DEFAULT_METHOD, METHODS
 from service.asking import Question
 from service.http.guards import bearer, check_host, check_key, check_origin, check_rate
-from service.http.metrics import Metrics
 from service.http.turnstile import Turnstile
 from service.http.upload_rate import UploadRate
 from service.intake.fields import read_weights
 from service.jobs.describing import Describe
 from service.key_ring import KeyRing
 from service.library import Library
+from service.watching.metrics import Metrics
+from service.watching.readiness import Readiness
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -33,7 +34,10 @@ class Services:
     rankings: CapacityLimiter  # threads that rank at the same time
     writings: CapacityLimiter  # threads that wait to write: those that read are never all taken
     metrics: Metrics
+    readiness: Readiness
+    looks: CapacityLimiter  # threads that look whether it is ready: never those that others wait for
     notify: Callable[[], None]  # tells the embedded worker, if there is one, of a new job
+    retire: Callable[[], None]  # tells it to claim no more, since the service will end
     describe: Describe  # what a child does with an upload
 
 

@@ -33,6 +33,7 @@ from service.jobs.recording import GAVE_UP, UNEXPECTED, UNEXPECTED_DETAIL
 from service.key_ring import KeysUnreadable, Unauthorised
 from service.remembering import QueryNotFound
 from service.vocabularies import NoVocabulary
+from service.watching.readiness import ShuttingDown, Unready
 from service.why.errors import NotExplained
 from worker.errors import MeshError
 
@@ -78,6 +79,8 @@ TABLE: dict[type[Exception], tuple[HTTPStatus, str]] = {
     kept.BadVocabulary: (HTTPStatus.CONFLICT, "The vocabulary cannot be learnt"),
     TooBusy: (HTTPStatus.SERVICE_UNAVAILABLE, "Too many searches at once"),
     PoolStopped: (HTTPStatus.SERVICE_UNAVAILABLE, "The service is stopping"),
+    Unready: (HTTPStatus.SERVICE_UNAVAILABLE, "A part of the service is not ready"),
+    ShuttingDown: (HTTPStatus.SERVICE_UNAVAILABLE, "The service is shutting down"),
     ChildDied: (HTTPStatus.UNPROCESSABLE_ENTITY, "The mesh could not be described"),
     ChildError: (HTTPStatus.UNPROCESSABLE_ENTITY, "The mesh could not be described"),
 }
@@ -113,7 +116,9 @@ def _known(request: Request, error: Exception) -> JSONResponse:
     if kind in DETAILS:
         log.error("%s %s: %s", request.method, request.url.path, title, exc_info=error)
         return problem(status, code=code, title=title, detail=DETAILS[kind])
-    response = problem(status, code=code, title=title, detail=str(getattr(error, "detail", "") or error))
+    members = getattr(error, "members", {})  # beyond those of every problem
+    detail = str(getattr(error, "detail", "") or error)
+    response = problem(status, code=code, title=title, detail=detail, **members)
     response.headers.update(getattr(error, "headers", {}))
     return response
 

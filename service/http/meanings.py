@@ -87,6 +87,10 @@ MEANINGS: dict[str, str] = {
     "too_busy": "As many searches wait as may. Try again after the seconds in `Retry-After`.",
     "vocabulary_changed": "The vocabulary changed during the search. "
     "Try again after the seconds in `Retry-After`.",
+    "unready": "A part of the service cannot be used; `parts` says which and why. Send requests elsewhere "
+    "until it is well.",
+    "shutting_down": "This process was told to end. Send requests to another; those that come are still "
+    "answered for a while.",
     "stopping": "The service is stopping. Try again when it is back.",
     "keys_unreadable": "The service cannot read its keys, so it lets nobody in. "
     "Try again in a moment; the operator finds more in the log.",

@@ -19,6 +19,7 @@ Upload textured meshes (PLY; OBJ with MTL and images; or a zip of them), ask wha
 Where the service has keys, send one as `Authorization: Bearer …`: a `read` key for whatever changes nothing,
 a `write` key for everything. Each may send so many meshes a minute; `Retry-After` says when to go on.
 
+Every answer has an `X-Request-ID`: yours, where it is up to 64 letters, digits, dots, dashes or underscores.
 Errors are `application/problem+json` (RFC 9457) with a stable `code`. Times are RFC 3339.
 Lists are `{"items": […], "next_cursor": …}`; give `next_cursor` back as `cursor` for the next page.
 """

@@ -5,6 +5,8 @@ from typing import Any
 
 from starlette.responses import JSONResponse
 
+from service.watching.context import known
+
 MEDIA_TYPE = "application/problem+json"
 RETRY_SECONDS = "2"  # what a busy service asks for
 
@@ -34,7 +36,9 @@ def problem(status: int, *, code: str, title: str, detail: str, **more: Any) -> 
         Further members.
     """
     body = {"type": f"urn:faience:problem:{code}", "title": title, "status": int(status), "detail": detail}
-    response = JSONResponse({**body, "code": code, **more}, int(status), media_type=MEDIA_TYPE)
+    request_id = known().get("request_id")  # none where what came was no request
+    about = {} if request_id is None else {"request_id": request_id}
+    response = JSONResponse({**body, "code": code, **about, **more}, int(status), media_type=MEDIA_TYPE)
     if status == HTTPStatus.UNAUTHORIZED:
         response.headers["WWW-Authenticate"] = "Bearer"
     if status == HTTPStatus.SERVICE_UNAVAILABLE:

@@ -29,6 +29,7 @@ from service.jobs.recording import GAVE_UP, UNEXPECTED
 from service.key_ring import KeysUnreadable, Unauthorised
 from service.remembering import QueryNotFound
 from service.vocabularies import NoVocabulary
+from service.watching.readiness import ShuttingDown, Unready
 from service.why.errors import NotExplained
 from worker.errors import Code, MeshError
 
@@ -62,6 +63,7 @@ NEIGHBOURS: tuple[Reason, ...] = (
     *(kept.VocabularyChanged, NoVocabulary, kept.FingerprintMismatch, kept.BadBlock, kept.BadVocabulary),
 )
 EXPLAINING: tuple[Reason, ...] = (*QUESTION, kept.FileMissing, kept.NotReady, NotExplained)
+READINESS: tuple[Reason, ...] = (Unready, ShuttingDown)
 DESCRIBING: tuple[Reason, ...] = (TooBusy, PoolStopped, ChildDied, ChildError)
 
 # Why a shape may be `failed`: what the worker finds, and what ends a job that finds nothing.

@@ -260,6 +260,7 @@ class ProblemModel(BaseModel):
                 "status": 422,
                 "detail": "amphora.mtl names clay.png, which was not sent",
                 "code": "missing_texture",
+                "request_id": "7f0c8a4e0f6d4a4e9a0e6d5c2b1a9f83",
             }
         }
     )
@@ -269,3 +270,9 @@ class ProblemModel(BaseModel):
     status: int
     detail: str
     code: str = Field(description="stable; see the list of codes")
+    request_id: str | None = Field(
+        default=None, description="as in `X-Request-ID`; the service's log names it. Not of what is no HTTP."
+    )
+    parts: dict[str, str] | None = Field(
+        default=None, description="of `unready`: each part of the service, and `ok` or what is wrong with it"
+    )

@@ -7,18 +7,22 @@ import threading
 import time
 from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from datetime import datetime
 
 from index.errors import CatalogueBusy, LeaseLost, ShapeNotFound, StorageFull, StorageUnreachable
 from index.jobs import Job
 from index.vocabulary import Vocabulary
 from service.jobs.child import ChildError
 from service.jobs.describing import Describe, InWords, KeptFiles, describe_files, describe_in_words
+from service.jobs.ended import RECORDING, EndedJob, JobWatch, now
 from service.jobs.pool import ChildDied, PoolStopped
 from service.jobs.recording import GAVE_UP, UNEXPECTED, UNEXPECTED_DETAIL, record_description
 from service.jobs.sweeping import sweep
+from service.jobs.timing import Stage, Timed, timed, timing
 from service.library import Library
 from service.vocabularies import NoVocabulary, active_vocabulary
+from service.watching.context import known_as
 from worker.describe import Description
 from worker.errors import MeshError
 
@@ -26,7 +30,7 @@ log = logging.getLogger(__name__)
 
 Observer = Callable[[str, float], None]  # outcome ("ready", or a code), seconds
 
-Described = tuple[Description, InWords | None]
+Described = Timed[tuple[Description, InWords | None]]
 
 AHEAD = 1  # jobs claimed beyond those that run, so that none waits while others are recorded
 TRIES = 2  # of a job whose process dies, in one claim
@@ -44,6 +48,8 @@ class Attempt:
     job: Job
     tries: int  # submissions so far, this one included
     started: float  # by the monotonic clock
+    claimed_at: datetime = field(default_factory=now)  # UTC
+    stages: list[Stage] = field(default_factory=list)  # how it spent its time, once that is known
 
 
 class Worker:
@@ -61,7 +67,9 @@ class Worker:
     describe : callable
         What a job is; importable by name.
     observe : callable
-        Told of each job's outcome and duration, for metrics.
+        Told of each job's outcome and duration.
+    watch : JobWatch
+        Hears of the same in more detail.
     """
 
     def __init__(
@@ -73,14 +81,17 @@ class Worker:
         name: str = "worker",
         describe: Describe = describe_files,
         observe: Observer = lambda *_: None,
+        watch: JobWatch = JobWatch(),  # noqa: B008 - it holds nothing
     ) -> None:
         self._library, self._executor = library, executor
         self._slots, self._name = slots, name
-        self._describe, self._observe = describe, observe
+        self._describe, self._observe, self._watch = describe, observe, watch
         self._running: dict[Future[Described], Attempt] = {}
         self._wake, self._stopping = threading.Event(), threading.Event()
         self._next_heartbeat = 0.0
         self._waiting = False  # for room on the disk
+        self._finish_until = 0.0  # by the monotonic clock, once it was told to stop
+        self.last_step = time.monotonic()  # when it last showed that it is alive
 
     def run(self) -> None:
         """Clean up after crashes, then work until `stop`; give back what is unfinished."""
@@ -92,6 +103,7 @@ class Worker:
                 except Exception:  # a database that is away for a while must not end the worker
                     log.exception("the worker goes on after an error")
                     self._stopping.wait(self._library.settings.poll_seconds)
+            self._finish()
         finally:
             self._give_back()
 
@@ -105,14 +117,23 @@ class Worker:
         """Look for jobs now: one was just accepted in this process."""
         self._wake.set()
 
-    def stop(self) -> None:
-        """Ask `run` to end."""
+    def stop(self, finish_seconds: float = 0) -> None:
+        """Ask `run` to claim no more and to end, at once or when its running jobs did within some seconds.
+
+        Asked again, it does not wait for longer.
+        """
+        if not self._stopping.is_set():
+            self._finish_until = time.monotonic() + finish_seconds
         self._stopping.set()
         self._wake.set()
 
     def _step(self) -> None:
         self._wake.clear()
         self._claim()
+        self._settle_finished()
+
+    def _settle_finished(self) -> None:
+        self.last_step = time.monotonic()
         for future in self._finished():
             attempt = self._running.pop(future)
             self._settle(future, attempt)
@@ -123,6 +144,7 @@ class Worker:
             job = self._library.queue.claim(self._name, self._library.settings.lease_seconds)
             if job is None:
                 return
+            self._watch.claimed(job)
             self._submit(job, tries=1)
             self._heartbeat()  # an executor may take its time
 
@@ -146,6 +168,7 @@ class Worker:
             return
         keys = {file.name: file.key for file in shape.files}
         future = self._executor.submit(
+            timed,
             describe_in_words,
             self._describe,
             self._vocabulary(),
@@ -172,10 +195,15 @@ class Worker:
 
     def _settle(self, future: Future[Described], attempt: Attempt) -> None:
         """Record one outcome."""
+        with known_as(job_id=attempt.job.id, shape_id=attempt.job.shape_id):
+            self._settle_known(future, attempt)
+
+    def _settle_known(self, future: Future[Described], attempt: Attempt) -> None:
         try:
             outcome = self._record(future, attempt)
         except (LeaseLost, ShapeNotFound) as error:
             log.info("job %s is not ours any more: %s", attempt.job.id, error)
+            self._watch.lost(attempt.job, error)
             return
         except (StorageFull, StorageUnreachable, CatalogueBusy) as error:
             log.warning("shape %s waits: %s", attempt.job.shape_id, error)
@@ -184,11 +212,15 @@ class Worker:
             return
         if outcome is not None:
             self._observe(outcome, time.monotonic() - attempt.started)
+            self._watch.ended(EndedJob.of(attempt.job, outcome, attempt.claimed_at, attempt.stages))
 
     def _record(self, future: Future[Described], attempt: Attempt) -> str | None:
         job = attempt.job
         try:
-            record_description(self._library, job, *future.result())
+            described = future.result()
+            attempt.stages.extend(described.stages)
+            with timing(RECORDING, attempt.stages):
+                record_description(self._library, job, *described.value)
             return "ready"
         except MeshError as error:
             return self._fail(job, error.code, error.detail)
@@ -222,11 +254,22 @@ class Worker:
         for future, attempt in list(self._running.items()):
             try:
                 self._library.queue.heartbeat(attempt.job, lease)
-            except LeaseLost:
+            except LeaseLost as error:
                 future.cancel()
                 del self._running[future]
+                self._watch.lost(attempt.job, error)
             except (StorageFull, CatalogueBusy) as error:
                 log.warning("the lease of job %s could not be prolonged: %s", attempt.job.id, error)
+
+    def _finish(self) -> None:
+        """Record what still runs, until the time is over; what has not begun goes back at once."""
+        try:
+            while self._running and time.monotonic() < self._finish_until:
+                for future in [future for future in self._running if future.cancel()]:
+                    self._hand_back(self._running.pop(future).job)
+                self._settle_finished()
+        except Exception:  # what is left goes back, as without this time
+            log.exception("the worker could not finish its jobs")
 
     def _hand_back(self, job: Job) -> None:
         self._library.reserve.despite_full_disk(lambda: self._library.queue.give_back(job))

@@ -1,13 +1,14 @@
 """Whether the service lives, is ready, and how it fares."""
 
+from anyio import to_thread
 from fastapi import APIRouter, Depends
 from prometheus_client import CONTENT_TYPE_LATEST
-from pydantic import BaseModel
+from pydantic import BaseModel, Field
 from starlette.responses import Response
 
-from service.http.dependencies import LibraryPart, ServicesPart, guard
+from service.http.dependencies import ServicesPart, guard
 from service.http.openapi import problems
-from service.http.reasons import CATALOGUE, KEYS
+from service.http.reasons import CATALOGUE, KEYS, READINESS
 
 router = APIRouter(tags=["health"])
 
@@ -18,6 +19,14 @@ class Health(BaseModel):
     status: str
 
 
+class ReadyModel(Health):
+    """One word for all, and some for each part."""
+
+    parts: dict[str, str] = Field(
+        description="`ok`; of the `worker`, what is known of it: it may be another process"
+    )
+
+
 @router.get("/livez", operation_id="live", summary="Whether the process answers", responses=problems())
 def live() -> Health:
     """Answer without touching anything."""
@@ -25,12 +34,12 @@ def live() -> Health:
 
 
 @router.get(
-    "/readyz", operation_id="ready", summary="Whether requests can be served", responses=problems(*CATALOGUE)
+    "/readyz", operation_id="ready", summary="Whether requests can be served", responses=problems(*READINESS)
 )
-def ready(library: LibraryPart) -> Health:
-    """Ask the catalogue one question."""
-    library.catalogue.revision()
-    return Health(status="ok")
+async def ready(services: ServicesPart) -> ReadyModel:
+    """Look at each part, at most once a second; a process that was told to end is not ready."""
+    parts = await to_thread.run_sync(services.readiness.look, limiter=services.looks)
+    return ReadyModel(status="ok", parts=parts)
 
 
 @router.get(

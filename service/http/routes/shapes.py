@@ -62,6 +62,7 @@ async def add_shape(
         shape, new = await to_thread.run_sync(
             accept_upload, services.library, submission, limiter=services.writings
         )
+    request.state.shape_id = shape.id  # for the log
     if new:
         services.notify()
     shape = await _settled(services.library, shape, wait)

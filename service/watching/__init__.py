@@ -1,0 +1,1 @@
+"""What operators see: numbers, logs, traces, and whether the parts are ready."""

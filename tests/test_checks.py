@@ -1,0 +1,51 @@
+"""The parts of a library are looked after, each for itself."""
+
+from pathlib import Path
+
+import pytest
+
+from service.key_ring import KeyRing
+from service.watching.checks import checks_of
+from service.watching.first_load import FirstLoad
+from service.watching.readiness import Readiness, Unready
+from tests.serving import open_fake_library, settings_for
+
+
+def test_an_index_that_is_loaded_an_unreadable_folder_and_old_keys_are_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    settings = settings_for(tmp_path / "library")
+    library = open_fake_library(settings)
+    keys = KeyRing(settings, list, patience=-1)
+    load = FirstLoad(library)
+    monkeypatch.setattr("os.access", lambda *_: False)  # root may everything
+    with pytest.raises(Unready) as raised:
+        Readiness(checks_of(library, keys, load)).look()
+    parts = raised.value.members["parts"]
+    assert parts["catalogue"] == "ok"
+    assert "data folder" in parts["files"]
+    assert parts["keys"] == "could not be read for too long"
+    assert parts["index"] == "is being loaded"
+    library.close()
+
+
+def test_the_first_load_ends_whether_or_not_it_succeeds(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    library = open_fake_library(settings_for(tmp_path / "library"))
+    load = FirstLoad(library)
+    assert not load.done
+    with load.running():
+        pass
+    assert load.done
+    assert list(library.searcher.revisions()) == ["fused"]
+
+    def broken(_: str) -> None:
+        raise OSError
+
+    monkeypatch.setattr(library.searcher, "load", broken)
+    again = FirstLoad(library)
+    with again.running():
+        pass
+    assert again.done
+    library.close()
