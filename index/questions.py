@@ -11,15 +11,16 @@ from sqlalchemy.engine.interfaces import DBAPICursor
 from index.arrays import SingleArray
 from index.blocks import decode_block
 from index.database import looking
-from index.errors import NotReady, ShapeNotFound
+from index.errors import DescriptionsChanging, NotReady, ShapeNotFound, VocabularyChanged
 from index.prepared import Prepared, PreparedLists, listed
 from index.shapes import Shape, Status, StoredFile
-from index.tables import FileRow, PlainBlockRow, QuantisedBlockRow, ShapeRow, StateRow
+from index.tables import FileRow, PlainBlockRow, QuantisedBlockRow, ShapeRow, StateRow, VocabularyRow
 
 _AT_ONCE = 500  # ids in one statement; SQLite allows 32 766 values
 
 _shapes, _files, _state = ShapeRow.__table__, FileRow.__table__, StateRow.__table__
 _plain, _words = PlainBlockRow.__table__, QuantisedBlockRow.__table__
+_vocabularies = VocabularyRow.__table__
 _FIELDS = [field.name for field in fields(Shape) if field.name != "files"]  # columns of the same names
 _SHAPE_ID: BindParameter[str] = bindparam("shape_id")
 _VOCABULARY_ID: BindParameter[str] = bindparam("vocabulary_id")
@@ -30,6 +31,7 @@ class QueryBlocks:
     """A stored shape as a query."""
 
     vocabulary_id: str | None  # the active one, whose words the blocks are in
+    made_in: str | None  # folder of the files that were made of it; see Shape
     blocks: Mapping[str, SingleArray]  # those asked for that there are
 
 
@@ -49,19 +51,36 @@ class Questions:
             rows = self._prepared.query.rows(cursor, {"shape_id": shape_id})
             if not rows:
                 raise ShapeNotFound(f"no shape has the id {shape_id!r}")
-            ((status, vocabulary_id),) = rows
+            ((status, vocabulary_id, fingerprint, own_fingerprint, made_in),) = rows
             if status != Status.READY:
                 raise NotReady(f"the shape is {status}; only a ready one can be compared")
-            wanted = {"shape_id": shape_id, "vocabulary_id": vocabulary_id}
+            if own_fingerprint != fingerprint:
+                raise DescriptionsChanging("this shape came while the others are described anew; it is compared after that")
+            wanted = {"shape_id": shape_id, "vocabulary_id": vocabulary_id, "fingerprint": fingerprint}
             found = self._prepared.plain.rows(cursor, wanted, list(names))
             found += self._prepared.words.rows(cursor, wanted, list(names))
         blocks = {name: decode_block(data) for name, data in found}
-        return QueryBlocks(vocabulary_id=vocabulary_id, blocks=blocks)
+        return QueryBlocks(vocabulary_id=vocabulary_id, blocks=blocks, made_in=made_in)
 
-    def one_block(self, shape_ids: Sequence[str], name: str) -> dict[str, SingleArray]:
-        """Return a block that needs no vocabulary, of those shapes that have it."""
+    def one_block(self, shape_ids: Sequence[str], name: str, vocabulary_id: str) -> dict[str, SingleArray]:
+        """Return a block that needs no vocabulary, of those shapes that have it.
+
+        Parameters
+        ----------
+        vocabulary_id : str
+            The active one: of its parameters the block must be.
+
+        Raises
+        ------
+        VocabularyChanged
+            Another is active.
+        """
+        wanted = {"name": name, "vocabulary_id": vocabulary_id}
         with looking(self._engine) as cursor:
-            rows = self._prepared.one_block.rows(cursor, {"name": name}, list(shape_ids))
+            ((active,),) = self._prepared.active.rows(cursor, {})
+            if active != vocabulary_id:
+                raise VocabularyChanged(f"the active vocabulary is {active}, not {vocabulary_id}")
+            rows = self._prepared.one_block.rows(cursor, wanted, list(shape_ids))
         return {shape_id: decode_block(data) for shape_id, data in rows}
 
     def get_many(self, shape_ids: Iterable[str]) -> dict[str, Shape]:
@@ -83,11 +102,19 @@ class _Statements:
 
     def __init__(self, engine: Engine) -> None:
         self.query = Prepared(
-            select(_shapes.c.status, _state.c.vocabulary_id)
+            select(
+                _shapes.c.status,
+                _state.c.vocabulary_id,
+                _vocabularies.c.fingerprint,
+                _shapes.c.fingerprint.label("own"),
+                _shapes.c.made_in,
+            )
             .join_from(_shapes, _state, true())
+            .outerjoin(_vocabularies, _vocabularies.c.id == _state.c.vocabulary_id)
             .where(_shapes.c.id == _SHAPE_ID),
             engine.dialect,
         )
+        self.active = Prepared(select(_state.c.vocabulary_id), engine.dialect)
         self.plain = PreparedLists(_plain_blocks, engine)
         self.words = PreparedLists(_quantised_blocks, engine)
         self.one_block = PreparedLists(_one_block, engine)
@@ -113,9 +140,8 @@ def _list(length: int) -> list[BindParameter[str]]:
 
 
 def _plain_blocks(n_names: int) -> Select[Any]:
-    return select(_plain.c.name, _plain.c.data).where(
-        _plain.c.shape_id == _SHAPE_ID, _plain.c.name.in_(_list(n_names))
-    )
+    ours = _plain.c.shape_id == _SHAPE_ID, _plain.c.fingerprint == bindparam("fingerprint")
+    return select(_plain.c.name, _plain.c.data).where(*ours, _plain.c.name.in_(_list(n_names)))
 
 
 def _quantised_blocks(n_names: int) -> Select[Any]:
@@ -124,8 +150,11 @@ def _quantised_blocks(n_names: int) -> Select[Any]:
 
 
 def _one_block(n_shapes: int) -> Select[Any]:
+    known = select(_vocabularies.c.fingerprint).where(_vocabularies.c.id == _VOCABULARY_ID)
     return select(_plain.c.shape_id, _plain.c.data).where(
-        _plain.c.shape_id.in_(_list(n_shapes)), _plain.c.name == bindparam("name")
+        _plain.c.shape_id.in_(_list(n_shapes)),
+        _plain.c.fingerprint == known.scalar_subquery(),
+        _plain.c.name == bindparam("name"),
     )
 
 
