@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from datetime import datetime, timedelta
 from statistics import median
 
-from sqlalchemy import Engine, func, select
+from sqlalchemy import ColumnElement, Engine, func, select
 from sqlalchemy.orm import Session
 
 from index.database import reading
@@ -21,7 +21,7 @@ _SAMPLE = 1_000  # jobs of which the median is taken
 class QueueProgress:
     """The queue in one moment."""
 
-    queued: int  # jobs that nobody holds
+    queued: int  # uploads that nobody holds
     held: Mapping[str, int]  # worker → jobs that it holds
     oldest_queued_at: datetime | None  # UTC; None where nothing waits
     last_minute: int  # jobs that ended
@@ -45,9 +45,10 @@ class Progress:
         """
         moment = moment or now()
         with reading(self._engine) as session:
-            held = _held(session, moment)
-            total = session.scalars(select(func.count()).select_from(JobRow)).one()
-            queued, rate = total - sum(held.values()), _rate(session, moment)
+            held, rate = _held(session, moment), _rate(session, moment)
+            free = select(func.count()).select_from(JobRow).where(_free(moment))
+            queued = session.scalars(free).one()
+            total = queued + sum(held.values())
             return QueueProgress(
                 queued=queued,
                 held=held,
@@ -70,8 +71,13 @@ def _held(session: Session, moment: datetime) -> dict[str, int]:
 
 
 def _oldest(session: Session, moment: datetime) -> datetime | None:
+    return session.scalars(select(func.min(JobRow.queued_at)).where(_free(moment))).one()
+
+
+def _free(moment: datetime) -> ColumnElement[bool]:
+    """Return which uploads wait; shapes that are described anew are told of by themselves."""
     free = JobRow.lease_until.is_(None) | (JobRow.lease_until < moment)
-    return session.scalars(select(func.min(JobRow.queued_at)).where(free)).one()
+    return free & JobRow.fingerprint.is_(None)
 
 
 def _ended(session: Session, since: datetime) -> int:

@@ -21,6 +21,7 @@ _AT_ONCE = 500  # ids in one statement; SQLite allows 32 766 values
 _shapes, _files, _state = ShapeRow.__table__, FileRow.__table__, StateRow.__table__
 _plain, _words = PlainBlockRow.__table__, QuantisedBlockRow.__table__
 _vocabularies = VocabularyRow.__table__
+_upcoming = _vocabularies.alias("upcoming")
 _FIELDS = [field.name for field in fields(Shape) if field.name != "files"]  # columns of the same names
 _SHAPE_ID: BindParameter[str] = bindparam("shape_id")
 _VOCABULARY_ID: BindParameter[str] = bindparam("vocabulary_id")
@@ -30,7 +31,7 @@ _VOCABULARY_ID: BindParameter[str] = bindparam("vocabulary_id")
 class QueryBlocks:
     """A stored shape as a query."""
 
-    vocabulary_id: str | None  # the active one, whose words the blocks are in
+    vocabulary_id: str | None  # whose words the blocks are in
     made_in: str | None  # folder of the files that were made of it; see Shape
     blocks: Mapping[str, SingleArray]  # those asked for that there are
 
@@ -43,19 +44,20 @@ class Questions:
     def query_blocks(self, shape_id: str, names: Collection[str]) -> QueryBlocks:
         """Return some blocks of a ready shape, in the words of the active vocabulary.
 
+        While shapes are described anew, those that came meanwhile are in the words of the next one.
+
         Raises
         ------
-        ShapeNotFound, NotReady
+        ShapeNotFound, NotReady, DescriptionsChanging
         """
         with looking(self._engine) as cursor:
             rows = self._prepared.query.rows(cursor, {"shape_id": shape_id})
             if not rows:
                 raise ShapeNotFound(f"no shape has the id {shape_id!r}")
-            ((status, vocabulary_id, fingerprint, own_fingerprint, made_in),) = rows
+            ((status, fingerprint, made_in, *vocabularies),) = rows
             if status != Status.READY:
                 raise NotReady(f"the shape is {status}; only a ready one can be compared")
-            if own_fingerprint != fingerprint:
-                raise DescriptionsChanging("this shape came while the others are described anew; it is compared after that")
+            vocabulary_id = _whose_words(fingerprint, *vocabularies)
             wanted = {"shape_id": shape_id, "vocabulary_id": vocabulary_id, "fingerprint": fingerprint}
             found = self._prepared.plain.rows(cursor, wanted, list(names))
             found += self._prepared.words.rows(cursor, wanted, list(names))
@@ -68,18 +70,18 @@ class Questions:
         Parameters
         ----------
         vocabulary_id : str
-            The active one: of its parameters the block must be.
+            Of its parameters the block must be.
 
         Raises
         ------
         VocabularyChanged
-            Another is active.
+            It is neither the active nor the next one.
         """
         wanted = {"name": name, "vocabulary_id": vocabulary_id}
         with looking(self._engine) as cursor:
-            ((active,),) = self._prepared.active.rows(cursor, {})
-            if active != vocabulary_id:
-                raise VocabularyChanged(f"the active vocabulary is {active}, not {vocabulary_id}")
+            (used,) = self._prepared.used.rows(cursor, {})
+            if vocabulary_id not in used:
+                raise VocabularyChanged(f"the active vocabulary is {used[0]}, not {vocabulary_id}")
             rows = self._prepared.one_block.rows(cursor, wanted, list(shape_ids))
         return {shape_id: decode_block(data) for shape_id, data in rows}
 
@@ -97,6 +99,23 @@ class Questions:
         return _Statements(self._engine)
 
 
+def _whose_words(
+    fingerprint: str,
+    active: str | None,
+    active_for: str | None,
+    upcoming: str | None,
+    upcoming_for: str | None,
+) -> str | None:
+    """Return the active vocabulary or, for what was described by the next one's parameters, that."""
+    if active is None or fingerprint == active_for:
+        return active
+    if upcoming is not None and fingerprint == upcoming_for:
+        return upcoming
+    raise DescriptionsChanging(
+        "this shape was described by other parameters than the others, and will be anew"
+    )
+
+
 class _Statements:
     """What is asked, prepared for the engine's kind of database."""
 
@@ -104,17 +123,20 @@ class _Statements:
         self.query = Prepared(
             select(
                 _shapes.c.status,
+                _shapes.c.fingerprint,
+                _shapes.c.made_in,
                 _state.c.vocabulary_id,
                 _vocabularies.c.fingerprint,
-                _shapes.c.fingerprint.label("own"),
-                _shapes.c.made_in,
+                _state.c.next_vocabulary_id,
+                _upcoming.c.fingerprint,
             )
             .join_from(_shapes, _state, true())
             .outerjoin(_vocabularies, _vocabularies.c.id == _state.c.vocabulary_id)
+            .outerjoin(_upcoming, _upcoming.c.id == _state.c.next_vocabulary_id)
             .where(_shapes.c.id == _SHAPE_ID),
             engine.dialect,
         )
-        self.active = Prepared(select(_state.c.vocabulary_id), engine.dialect)
+        self.used = Prepared(select(_state.c.vocabulary_id, _state.c.next_vocabulary_id), engine.dialect)
         self.plain = PreparedLists(_plain_blocks, engine)
         self.words = PreparedLists(_quantised_blocks, engine)
         self.one_block = PreparedLists(_one_block, engine)

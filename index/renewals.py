@@ -69,12 +69,13 @@ class Renewals:
 
     def queue_renewals(self, limit: int) -> int:
         """Queue up to `limit` ready shapes that have no outcome yet and no job; return how many."""
+        if not self._unfinished(waiting=False):
+            return 0  # asking again and again must not lock others out
         with writing(self._engine) as session:
             fingerprint = _next_fingerprint(session, lock_state(session))
             if fingerprint is None:
                 return 0
-            waiting = exists().where(JobRow.shape_id == ShapeRow.id)
-            query = _unfinished(fingerprint).where(~waiting).order_by(ShapeRow.id).limit(limit)
+            query = _unfinished(fingerprint, waiting=False).order_by(ShapeRow.id).limit(limit)
             found = session.scalars(query).all()
             for shape_id in found:
                 enqueue(session, shape_id, fingerprint)
@@ -123,6 +124,8 @@ class Renewals:
             False, and nothing is changed, while a ready shape has no outcome or nothing is under way. True
             afterwards: every index is built anew. Shapes that could not be described anew are `failed`.
         """
+        if self._unfinished(waiting=True):
+            return False
         with writing(self._engine) as session:
             state = lock_state(session)
             fingerprint = _next_fingerprint(session, state)
@@ -162,7 +165,7 @@ class Renewals:
             ]
 
     def forget_earlier(self, shape_ids: Sequence[str]) -> None:
-        """Delete blocks of parameters that are neither active nor the next; the shapes are outdated no more."""
+        """Delete these shapes' blocks of parameters that are neither active nor the next."""
         with writing(self._engine) as session:
             state = lock_state(session)
             upcoming = _next_fingerprint(session, state)
@@ -173,10 +176,22 @@ class Renewals:
             gone = _outdated_rows(upcoming), RenewalRow.shape_id.in_(shape_ids)
             session.execute(delete(RenewalRow).where(*gone))
 
-    def fingerprints(self) -> frozenset[str]:
-        """Return those of all parameters that this library had vocabularies of."""
+    def _unfinished(self, *, waiting: bool) -> bool:
+        """Tell whether a shape has no outcome; with ``waiting``, shapes whose jobs are queued count too."""
         with reading(self._engine) as session:
-            return frozenset(session.scalars(select(VocabularyRow.fingerprint)))
+            fingerprint = _next_fingerprint(session, session.scalars(select(StateRow)).one())
+            if fingerprint is None:
+                return False
+            return session.scalars(_unfinished(fingerprint, waiting=waiting).limit(1)).first() is not None
+
+    def left_behind(self, fingerprint: str) -> bool:
+        """Tell whether these are parameters of earlier descriptions: known here, not active, not the next."""
+        ours = VocabularyRow.fingerprint == fingerprint
+        used = VocabularyRow.id.in_((StateRow.vocabulary_id, StateRow.next_vocabulary_id))
+        with reading(self._engine) as session:
+            known = session.scalars(select(VocabularyRow.id).where(ours).limit(1)).first()
+            now_used = session.scalars(select(VocabularyRow.id).join(StateRow, used).where(ours).limit(1))
+            return known is not None and now_used.first() is None
 
 
 def _next_fingerprint(session: Session, state: StateRow) -> str | None:
@@ -185,10 +200,11 @@ def _next_fingerprint(session: Session, state: StateRow) -> str | None:
     return known_vocabulary(session, state.next_vocabulary_id).fingerprint
 
 
-def _unfinished(fingerprint: str) -> Select[str]:
+def _unfinished(fingerprint: str, *, waiting: bool = True) -> Select[str]:
     """Ready shapes without an outcome; one that came meanwhile may have been described by these already."""
     outcome = exists().where(RenewalRow.shape_id == ShapeRow.id, RenewalRow.fingerprint == fingerprint)
-    return select(ShapeRow.id).where(_ready, ShapeRow.fingerprint != fingerprint, ~outcome)
+    query = select(ShapeRow.id).where(_ready, ShapeRow.fingerprint != fingerprint, ~outcome)
+    return query if waiting else query.where(~exists().where(JobRow.shape_id == ShapeRow.id))
 
 
 def _renewing(session: Session, job: Job, outcome: str = Status.READY) -> ShapeRow:

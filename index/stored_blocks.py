@@ -72,9 +72,7 @@ class StoredBlocks:
             return {row.id: row.revision for row in session.execute(query)}
 
 
-def write_plain(
-    session: Session, shape_id: str, fingerprint: str, blocks: Mapping[str, SingleArray]
-) -> None:
+def write_plain(session: Session, shape_id: str, fingerprint: str, blocks: Mapping[str, SingleArray]) -> None:
     """Replace a shape's blocks that need no vocabulary, of those parameters."""
     table, key = PlainBlockRow, {"shape_id": shape_id, "fingerprint": fingerprint}
     ours = table.fingerprint == fingerprint

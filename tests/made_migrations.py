@@ -81,7 +81,9 @@ def _take_back_versions(op: Operations) -> None:
         sa.Column("data", sa.LargeBinary(), nullable=False),
     )
     columns = [sa.column(name) for name in ("shape_id", "name", "data")]
-    op.execute(sa.insert(earlier).from_select(columns, sa.select(*columns).select_from(sa.table("plain_blocks"))))
+    op.execute(
+        sa.insert(earlier).from_select(columns, sa.select(*columns).select_from(sa.table("plain_blocks")))
+    )
     op.drop_table("plain_blocks")
     op.rename_table("earlier_blocks", "plain_blocks")
     with op.batch_alter_table("plain_blocks") as blocks:

@@ -53,8 +53,21 @@ class _LibraryCollector(Collector):
         yield shapes
         yield GaugeMetricFamily("faience_queue_depth", "Jobs not finished", value=self._library.queue.depth())
         yield GaugeMetricFamily("faience_queue_age_seconds", "Wait of the oldest job", value=self._age())
+        yield self._renewal()
         revision = self._library.catalogue.revision()
         yield GaugeMetricFamily("faience_revision", "Changes of the catalogue so far", value=revision)
+
+    def _renewal(self) -> GaugeMetricFamily:
+        gauge = GaugeMetricFamily(
+            "faience_renewal_shapes", "Shapes described anew for a new version", labels=("outcome",)
+        )
+        progress = self._library.catalogue.renewal()
+        if progress is not None:
+            waiting = progress.total - progress.done - progress.failed
+            outcomes = {"done": progress.done, "failed": progress.failed, "waiting": waiting}
+            for outcome, number in outcomes.items():
+                gauge.add_metric((outcome,), number)
+        return gauge
 
     def _age(self) -> float:
         oldest = self._library.catalogue.progress().oldest_queued_at

@@ -7,8 +7,10 @@ from typing import Self
 from pydantic import BaseModel, Field
 
 from index.progress import QueueProgress
+from index.renewals import RenewalProgress
 from index.shapes import Status
 from index.tags import TagPage
+from service.http.renewal_schemas import RenewalModel
 
 
 class TagModel(BaseModel):
@@ -73,9 +75,14 @@ class QueueModel(BaseModel):
     expected_seconds: float | None = Field(
         description="until the queue is empty, at the speed of the last five minutes; null where unknown"
     )
+    renewal: RenewalModel | None = Field(
+        description="how far all shapes are described anew for a new version; null where they are not"
+    )
 
     @classmethod
-    def of(cls, progress: QueueProgress, counts: Mapping[Status, int]) -> Self:
+    def of(
+        cls, progress: QueueProgress, counts: Mapping[Status, int], renewal: RenewalProgress | None
+    ) -> Self:
         """Return the queue as it leaves."""
         return cls(
             queued=progress.queued,
@@ -86,4 +93,5 @@ class QueueModel(BaseModel):
             finished=FinishedModel(last_minute=progress.last_minute, last_hour=progress.last_hour),
             median_seconds=progress.median_seconds,
             expected_seconds=progress.expected_seconds,
+            renewal=None if renewal is None else RenewalModel.of(renewal),
         )

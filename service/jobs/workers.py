@@ -9,16 +9,23 @@ from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from dataclasses import dataclass
 
-from index.errors import CatalogueBusy, LeaseLost, ShapeNotFound, StorageFull
+from index.errors import CatalogueBusy, LeaseLost, NewerDescriptions, ShapeNotFound, StorageFull
 from index.jobs import Job
 from index.vocabulary import Vocabulary
 from service.jobs.child import ChildError
 from service.jobs.describing import Describe, InWords, describe_files, describe_in_words
 from service.jobs.pool import ChildDied, PoolStopped
-from service.jobs.recording import GAVE_UP, UNEXPECTED, UNEXPECTED_DETAIL, record_description
+from service.jobs.recording import (
+    GAVE_UP,
+    UNEXPECTED,
+    UNEXPECTED_DETAIL,
+    record_description,
+    record_failure,
+)
+from service.jobs.renewing import Renewing
 from service.jobs.sweeping import sweep
 from service.library import Library
-from service.vocabularies import NoVocabulary, active_vocabulary
+from service.vocabularies import NoVocabulary, own_vocabulary
 from worker.describe import Description
 from worker.errors import MeshError
 
@@ -74,7 +81,7 @@ class Worker:
         describe: Describe = describe_files,
         observe: Observer = lambda *_: None,
     ) -> None:
-        self._library, self._executor = library, executor
+        self._library, self._executor, self._renewing = library, executor, Renewing(library)
         self._slots, self._name = slots, name
         self._describe, self._observe = describe, observe
         self._running: dict[Future[Described], Attempt] = {}
@@ -119,9 +126,14 @@ class Worker:
         self._heartbeat()
 
     def _claim(self) -> None:
+        fingerprint = self._library.parameters.fingerprint()
         while len(self._running) < self._slots + AHEAD and not self._stopping.is_set() and self._has_room():
-            job = self._library.queue.claim(self._name, self._library.settings.lease_seconds)
+            if not self._renewing.may_describe():
+                return
+            job = self._library.queue.claim(self._name, self._library.settings.lease_seconds, fingerprint)
             if job is None:
+                if self._renewing.go_on():
+                    continue
                 return
             self._submit(job, tries=1)
             self._heartbeat()  # an executor may take its time
@@ -158,7 +170,7 @@ class Worker:
 
     def _vocabulary(self) -> Vocabulary | None:
         try:
-            return active_vocabulary(self._library)
+            return own_vocabulary(self._library)
         except NoVocabulary:  # may come while the job runs
             return None
 
@@ -174,7 +186,7 @@ class Worker:
         """Record one outcome."""
         try:
             outcome = self._record(future, attempt)
-        except (LeaseLost, ShapeNotFound) as error:
+        except (LeaseLost, ShapeNotFound, NewerDescriptions) as error:
             log.info("job %s is not ours any more: %s", attempt.job.id, error)
             return
         except (StorageFull, CatalogueBusy) as error:
@@ -210,7 +222,7 @@ class Worker:
         return self._fail(attempt.job, GAVE_UP, f"{reason}, {attempt.tries} times in a row")
 
     def _fail(self, job: Job, code: str, detail: str) -> str:
-        self._library.catalogue.record_failed(job, code=code, detail=detail)
+        record_failure(self._library, job, code, detail)
         return code
 
     def _heartbeat(self) -> None:

@@ -54,8 +54,8 @@ def download(library: LibraryPart, shape_id: str, name: str) -> FileResponse:
 )
 def thumbnail(library: LibraryPart, shape_id: str, width: Width = WIDEST) -> Response:
     """Return a picture of a ready shape on a transparent background."""
-    library.catalogue.get(shape_id)
-    return picture(library.files.get(derived_key(shape_id, THUMBNAIL)), width)
+    made_in = library.catalogue.get(shape_id).made_in
+    return picture(library.files.get(derived_key(shape_id, THUMBNAIL, made_in)), width)
 
 
 @router.get(
@@ -94,8 +94,8 @@ def picture(png: bytes, width: int) -> Response:
 
 
 def _derived(library: Library, shape_id: str, name: str, media_type: str) -> FileResponse:
-    library.catalogue.get(shape_id)
-    path = library.files.path(derived_key(shape_id, name))
+    made_in = library.catalogue.get(shape_id).made_in
+    path = library.files.path(derived_key(shape_id, name, made_in))
     if not path.is_file():
         raise FileMissing(f"there is no {name} before the shape is ready")
     return FileResponse(path, media_type=media_type, headers=PRIVATE)
