@@ -22,7 +22,8 @@ class QueueProgress:
     """The queue in one moment."""
 
     queued: int  # uploads that nobody holds
-    held: Mapping[str, int]  # worker → jobs that it holds
+    processing: int  # uploads that workers hold
+    held: Mapping[str, int]  # worker → jobs that it holds, also those of shapes that are described anew
     oldest_queued_at: datetime | None  # UTC; None where nothing waits
     last_minute: int  # jobs that ended
     last_hour: int
@@ -47,10 +48,11 @@ class Progress:
         with reading(self._engine) as session:
             held, rate = _held(session, moment), _rate(session, moment)
             free = select(func.count()).select_from(JobRow).where(_free(moment))
-            queued = session.scalars(free).one()
-            total = queued + sum(held.values())
+            uploads = select(func.count()).select_from(JobRow).where(JobRow.fingerprint.is_(None))
+            queued, total = session.scalars(free).one(), session.scalars(uploads).one()
             return QueueProgress(
                 queued=queued,
+                processing=total - queued,
                 held=held,
                 oldest_queued_at=_oldest(session, moment),
                 last_minute=_ended(session, moment - timedelta(minutes=1)),

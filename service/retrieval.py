@@ -51,9 +51,7 @@ class Answer:
     milliseconds: float  # from the question to here
     hits: tuple[Hit, ...]  # nearest first
     query: Asked | None = None  # a mesh that is no shape of the library
-    partly: RenewalProgress | None = (
-        None  # while all are described anew: with how many it was compared
-    )
+    partly: RenewalProgress | None = None  # while all are described anew: with how many it was compared
 
 
 def accept_upload(library: Library, submission: Submission) -> tuple[Shape, bool]:

@@ -2,6 +2,7 @@
 
 import shutil
 from pathlib import Path
+from typing import Any
 
 import pytest
 import sqlalchemy as sa
@@ -80,7 +81,7 @@ def _take_back_versions(op: Operations) -> None:
         sa.Column("name", sa.String(), nullable=False),
         sa.Column("data", sa.LargeBinary(), nullable=False),
     )
-    columns = [sa.column(name) for name in ("shape_id", "name", "data")]
+    columns: list[sa.ColumnClause[Any]] = [sa.column(name) for name in ("shape_id", "name", "data")]
     op.execute(
         sa.insert(earlier).from_select(columns, sa.select(*columns).select_from(sa.table("plain_blocks")))
     )

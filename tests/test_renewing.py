@@ -4,34 +4,33 @@ import multiprocessing
 from collections.abc import Iterator
 from pathlib import Path
 
-import numpy as np
 import pytest
+from sqlalchemy import select
 
+from index.database import reading
 from index.errors import DescriptionsChanging, NewerDescriptions
 from index.shapes import Status
+from index.tables import PlainBlockRow, QuantisedBlockRow
 from service.asking import Question
-from service.jobs.pool import ProcessPerJob
-from service.app import child_limits
+from service.intake.submissions import receive_paths
 from service.library import Library
-from service.jobs.workers import Worker
 from service.relations.duplicates import find_duplicates
 from service.retrieval import Answer, change_shape, find_similar, remove_shape, search_upload
-from service.intake.submissions import receive_paths
 from service.vocabularies import learn_vocabulary
 from tests.fakes import coloured_triangle
 from tests.serving import open_fake_library, settings_for, wait_until
-from tests.test_workers import SameThread, Working
 from tests.versions import (
     NEW,
     REFUSED,
+    Here,
     accept,
     describe_newly,
-    do,
     next_job,
     open_new_library,
     step,
     work_newly,
     work_off,
+    working,
 )
 
 pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
@@ -89,7 +88,7 @@ def ask(library: Library, red: int) -> Answer:
         path = folder / "mesh.ply"
         path.write_bytes(coloured_triangle(red=red))
         submission = receive_paths({"mesh.ply": path})
-        return search_upload(library, SameThread(), submission, Question(), describe_newly)
+        return search_upload(library, Here(), submission, Question(), describe_newly)
 
 
 def test_every_answer_is_of_one_version_the_earlier_until_the_last_shape_and_then_the_new(
@@ -141,7 +140,7 @@ def test_what_comes_meanwhile_is_ready_and_changes_no_earlier_answer_before_the_
     assert answers(library, earlier) == before
     answer = find_similar(library, late, Question())
     assert answer.partly is not None
-    assert [hit.shape.name for hit in answer.hits] == ["shape 10"] or len(answer.hits) == 1
+    assert len(answer.hits) == 1
     assert find_duplicates(library).items == ()
     work_off(library)
     assert answers(library, {**earlier, 61: late}) == made_by(tmp_path / "new", (*REDS, 61), new=True)
@@ -202,11 +201,9 @@ def test_what_the_earlier_version_made_is_deleted_after_the_end(
     for shape_id in earlier.values():
         folders = {key.rpartition("/")[0] for key in library.files.keys(f"shapes/{shape_id}")}
         assert folders == {f"shapes/{shape_id}/{NEW.fingerprint()}"}
-    with library.engine.connect() as connection:
-        for table in ("plain_blocks", "quantised_blocks"):
-            column = "fingerprint" if table == "plain_blocks" else "vocabulary_id"
-            found = connection.exec_driver_sql(f"SELECT DISTINCT {column} FROM {table}").scalars().all()
-            assert len(found) == 1, table
+    with reading(library.engine) as session:
+        for column in (PlainBlockRow.fingerprint, QuantisedBlockRow.vocabulary_id):
+            assert len(session.scalars(select(column).distinct()).all()) == 1
 
 
 def test_a_process_of_the_earlier_version_answers_to_the_end_and_is_refused_then(
@@ -214,8 +211,7 @@ def test_a_process_of_the_earlier_version_answers_to_the_end_and_is_refused_then
 ) -> None:
     old = open_fake_library(settings_for(tmp_path / "library"))
     before = answers(old, earlier)
-    late = 0
-    for late in range(2):
+    for _ in range(2):
         assert step(library)
         assert next_job(old) is None  # it leaves to the new version what is the new version's
         assert answers(old, earlier) == before
@@ -260,11 +256,9 @@ def test_a_killed_worker_costs_time_and_no_shape(
     killed.kill()
     killed.join()
     assert answers(library, earlier) in (before, made_by(tmp_path / "new", REDS, new=True))
-    pool = ProcessPerJob(slots=2, limits=child_limits(library.settings))
-    with Working(library, pool, describe=describe_newly):
+    with working(library):
         wait_until(
             lambda: {library.catalogue.get(i).fingerprint for i in earlier.values()} == {NEW.fingerprint()}
         )
-    pool.shutdown(cancel_futures=True)
     assert answers(library, earlier) == made_by(tmp_path / "new", REDS, new=True)
     assert library.catalogue.counts()[Status.READY] == len(REDS)

@@ -1,18 +1,20 @@
-"""Two versions of Faience that describe differently: numbers of one mixed with those of the other are noticed."""
+"""Two versions of Faience that describe differently: where their numbers are mixed, it is noticed."""
 
+import contextlib
 import dataclasses
 import functools
+import threading
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import Executor, Future
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from index.jobs import Job
 from index.vocabulary import Vocabulary, learn_vocabulary
-from service.app import child_limits
 from service.intake.submissions import receive_paths
-from service.jobs.pool import ProcessPerJob
 from service.jobs.recording import record_description, record_failure
 from service.jobs.renewing import Renewing
 from service.jobs.workers import Worker
@@ -29,7 +31,7 @@ from worker.reading.limits import Limits
 NEW = Parameters(vertices=4_999)
 NEW_LENGTHS = {"colour-histogram": 4095, "colour-curves": 143}  # others than those of fakes
 REFUSED = "refused.ply"  # by the new version, not by the old one
-HASTE = 0.01  # seconds that a slow description takes
+SLOW = 0.2  # seconds that a slow description takes at least
 
 
 def describe_newly(
@@ -52,7 +54,7 @@ def describe_slowly(
     paths: Mapping[str, Path], allow_untextured: bool, parameters: Parameters, limits: Limits
 ) -> Description:
     """Describe newly, but so slowly that a process can be killed on the way."""
-    time.sleep(20 * HASTE)
+    time.sleep(SLOW)
     return describe_newly(paths, allow_untextured, parameters, limits)
 
 
@@ -116,5 +118,30 @@ def do(library: Library, job: Job) -> None:
 def work_newly(folder: Path) -> None:
     """Be a worker of the new version until somebody kills this process."""
     library = open_new_library(settings_for(folder, lease_seconds=0.5))
-    pool = ProcessPerJob(slots=2, limits=child_limits(library.settings))
-    Worker(library, pool, slots=2, describe=describe_slowly).run()
+    Worker(library, Here(), slots=1, describe=describe_slowly).run()
+
+
+class Here(Executor):
+    """Runs a job at once, without a process."""
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """Run it."""
+        future: Future[Any] = Future()
+        try:
+            future.set_result(fn(*args, **kwargs))
+        except Exception as error:  # noqa: BLE001 - this is what executors do
+            future.set_exception(error)
+        return future
+
+
+@contextlib.contextmanager
+def working(library: Library) -> Iterator[None]:
+    """Run a worker of the new version beside what is done here."""
+    worker = Worker(library, Here(), slots=1, describe=describe_newly)
+    thread = threading.Thread(target=worker.run)
+    thread.start()
+    try:
+        yield
+    finally:
+        worker.stop()
+        thread.join()

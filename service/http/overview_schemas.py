@@ -69,7 +69,9 @@ class QueueModel(BaseModel):
     processing: int = Field(description="jobs that a worker has in hand")
     failed: int = Field(description="shapes that could not be described")
     oldest_queued_at: datetime | None = Field(description="when the job that waits longest was queued")
-    workers: list[WorkerModel] = Field(description="those that have jobs in hand")
+    workers: list[WorkerModel] = Field(
+        description="those that have jobs in hand, also of shapes that are described anew"
+    )
     finished: FinishedModel
     median_seconds: float | None = Field(description="that a job took in the last hour; null without any")
     expected_seconds: float | None = Field(
@@ -86,7 +88,7 @@ class QueueModel(BaseModel):
         """Return the queue as it leaves."""
         return cls(
             queued=progress.queued,
-            processing=sum(progress.held.values()),
+            processing=progress.processing,
             failed=counts[Status.FAILED],
             oldest_queued_at=progress.oldest_queued_at,
             workers=[WorkerModel(name=name, jobs=jobs) for name, jobs in progress.held.items()],
