@@ -11,6 +11,7 @@ from index.blocks import checked_blocks
 from index.database import writing
 from index.errors import BadBlock, FingerprintMismatch, UnknownVocabulary, VocabularyChanged
 from index.jobs import Job, end_job
+from index.renewed import keep_failure
 from index.revisions import lock_state, touch
 from index.rows import shape_of, shape_row
 from index.shapes import Shape, Status
@@ -67,6 +68,8 @@ class Descriptions:
             row = shape_row(session, job.shape_id)
             check_vocabulary(session, state, vocabulary_id, fingerprint)
             delete_blocks(session, row.id)  # of an earlier time at which it was ready
+            if row.made_in is not None:
+                keep_failure(session, row.id, row.made_in, "replaced", "by another description")  # tidied up
             write_plain(session, row.id, fingerprint, plain)
             write_quantised(session, row.id, vocabulary_id, words)
             row.status, row.facts, row.fingerprint = Status.READY, dict(facts), fingerprint

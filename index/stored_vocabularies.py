@@ -74,7 +74,8 @@ class Vocabularies:
         -------
         bool
             False, and nothing is changed, while a ready shape lacks its blocks. True afterwards:
-            every index is built anew, and blocks in the words of other vocabularies are gone.
+            every index is built anew, and blocks in the words of other vocabularies are gone, but those
+            of the one to come where shapes are described anew.
 
         Raises
         ------
@@ -93,7 +94,8 @@ class Vocabularies:
             state.vocabulary_id = vocabulary_id
             state.epoch += 1
             next_revision(session)
-            session.execute(delete(QuantisedBlockRow).where(QuantisedBlockRow.vocabulary_id != vocabulary_id))
+            kept = {vocabulary_id, state.next_vocabulary_id or vocabulary_id}
+            session.execute(delete(QuantisedBlockRow).where(QuantisedBlockRow.vocabulary_id.not_in(kept)))
             return True
 
 

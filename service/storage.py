@@ -13,6 +13,7 @@ from worker.arrays import SingleArray
 THUMBNAIL = "thumbnail.png"
 PREVIEW = "preview.glb"
 SIGNATURES = "signatures.npz"
+MADE = (THUMBNAIL, PREVIEW, SIGNATURES)  # of every shape that is ready
 
 
 def upload_key(upload_id: str, number: int) -> str:

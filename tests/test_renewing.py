@@ -51,7 +51,7 @@ def earlier(tmp_path: Path) -> dict[int, str]:
 @pytest.fixture
 def library(tmp_path: Path, earlier: dict[int, str]) -> Iterator[Library]:
     """Open it as the new version does."""
-    opened = open_new_library(settings_for(tmp_path / "library"))
+    opened = open_new_library(settings_for(tmp_path / "library", lease_seconds=0.5))
     yield opened
     opened.close()
 
@@ -245,7 +245,7 @@ def test_a_killed_worker_costs_time_and_no_shape(
     tmp_path: Path, library: Library, earlier: dict[int, str]
 ) -> None:
     before = answers(library, earlier)
-    killed = multiprocessing.get_context("spawn").Process(target=work_newly, args=(tmp_path / "library",))
+    killed = multiprocessing.get_context("spawn").Process(target=work_newly, args=(library.settings,))
     killed.start()
 
     def done() -> int:

@@ -22,7 +22,6 @@ from service.library import Library
 from service.retrieval import accept_upload
 from service.settings import Settings
 from tests.fakes import coloured_triangle, describe_quickly, fake_signatures
-from tests.serving import settings_for
 from worker.describe import Description
 from worker.errors import Code, MeshError
 from worker.parameters import Parameters
@@ -115,9 +114,9 @@ def do(library: Library, job: Job) -> None:
         record_failure(library, job, error.code, error.detail)
 
 
-def work_newly(folder: Path) -> None:
+def work_newly(settings: Settings) -> None:
     """Be a worker of the new version until somebody kills this process."""
-    library = open_new_library(settings_for(folder, lease_seconds=0.5))
+    library = open_new_library(settings)
     Worker(library, Here(), slots=1, describe=describe_slowly).run()
 
 

@@ -5,9 +5,7 @@ from collections.abc import Iterator
 from index.dumping import Belongings
 from index.files import FileStore
 from index.shapes import StoredFile
-from service.storage import PREVIEW, SIGNATURES, THUMBNAIL, derived_key
-
-MADE = (THUMBNAIL, PREVIEW, SIGNATURES)  # of every shape that is ready
+from service.storage import MADE, derived_key
 
 
 def needed_files(shape: Belongings) -> dict[str, StoredFile | None]:

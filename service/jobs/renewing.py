@@ -14,6 +14,7 @@ from index.errors import DescriptionsChanging, NewerDescriptions
 from index.renewals import Outdated
 from index.vocabulary import Vocabulary, default_vocabulary
 from service.library import Library
+from service.storage import MADE
 from service.vocabularies import NoVocabulary, own_vocabulary
 
 BATCH = 100  # shapes that are queued, or tidied up, at once
@@ -98,6 +99,6 @@ def _fitting_vocabulary(library: Library) -> Vocabulary | None:
 def _delete_earlier_files(library: Library, shape: Outdated) -> None:
     """Delete what was made of a shape and lies in no folder that is needed."""
     for key in list(library.files.keys(f"shapes/{shape.id}")):
-        _, _, *folders, _ = key.split("/")
-        if ("/".join(folders) or None) not in shape.folders:
+        _, _, *folders, name = key.split("/")
+        if name in MADE and ("/".join(folders) or None) not in shape.folders:
             library.files.delete(key)
