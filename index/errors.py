@@ -87,6 +87,18 @@ class VocabularyChanged(CatalogueError):
     code = "vocabulary_changed"
 
 
+class DescriptionsChanging(CatalogueError):
+    """All shapes are being described anew; this can be compared when that is done."""
+
+    code = "descriptions_changing"
+
+
+class NewerDescriptions(CatalogueError):
+    """A newer version of Faience described this library anew; this one must not mix with it."""
+
+    code = "newer_descriptions"
+
+
 class LeaseLost(CatalogueError):
     """The job is no longer this worker's: its lease ran out and another took it, or its shape is gone."""
 

@@ -1,7 +1,8 @@
 """The queue: jobs are claimed once, leased, and given up after too many attempts."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from datetime import datetime, timedelta
+from typing import Any
 from uuid import uuid4
 
 from sqlalchemy import ColumnElement, Engine, and_, func, or_, select, update
@@ -11,6 +12,7 @@ from index.database import reading, writing
 from index.deliveries import announce
 from index.errors import LeaseLost
 from index.jobs import MAX_ATTEMPTS, Job, end_row, held_row
+from index.renewed import keep_failure
 from index.revisions import lock_state, now, touch
 from index.rows import shape_row
 from index.shapes import Status
@@ -34,22 +36,31 @@ class Queue:
         self._engine = engine
         self._clock = clock
 
-    def claim(self, worker: str, lease_seconds: float) -> Job | None:
+    def claim(self, worker: str, lease_seconds: float, fingerprint: str | None = None) -> Job | None:
         """Take the oldest job that nobody holds, or whose lease ran out; None where there is none.
 
-        Its shape becomes `processing` in the same transaction. A job whose attempts are used up is
-        not taken: its shape becomes `failed` with the code ``gave_up``.
+        The shape of an upload becomes `processing` in the same transaction. A job whose attempts are used
+        up is not taken: its shape becomes `failed` with the code ``gave_up``. Shapes to be described anew
+        come after all uploads; they stay `ready`, also where that fails.
+
+        Parameters
+        ----------
+        fingerprint : str, optional
+            Of the parameters that this worker describes with; shapes are described anew only for these.
         """
         moment = self._clock()
-        if not self._waits(moment):
+        if not self._waits(moment, fingerprint):
             return None  # asking again and again must not lock others out
         with writing(self._engine) as session:
             lock_state(session)
             _give_up_exhausted(session, moment)
-            row = _claim_one(session, moment, worker, moment + timedelta(seconds=lease_seconds))
+            wanted = and_(_free(moment), _for(fingerprint))
+            values = {"claimed_at": moment, "lease_until": moment + timedelta(seconds=lease_seconds)}
+            row = _claim_one(session, wanted, {"worker": worker, "token": uuid4().hex, **values})
             if row is None:
                 return None
-            _set_status(session, row.shape_id, Status.PROCESSING)
+            if row.fingerprint is None:
+                _set_status(session, row.shape_id, Status.PROCESSING)
             return _job_of(row)
 
     def heartbeat(self, job: Job, lease_seconds: float) -> Job:
@@ -73,29 +84,36 @@ class Queue:
             row = held_row(session, job)
             row.attempts -= 1
             row.lease_until = row.claimed_at = row.worker = row.token = None
-            _set_status(session, row.shape_id, Status.QUEUED)
+            if row.fingerprint is None:
+                _set_status(session, row.shape_id, Status.QUEUED)
 
     def depth(self) -> int:
-        """Return how many jobs wait for a worker."""
+        """Return how many uploads wait for a worker."""
         with reading(self._engine) as session:
-            query = select(func.count()).select_from(JobRow).where(_free(self._clock()))
+            query = select(func.count()).select_from(JobRow).where(_free(self._clock()), _for(None))
             return session.scalars(query).one()
 
-    def _waits(self, moment: datetime) -> bool:
+    def _waits(self, moment: datetime, fingerprint: str | None) -> bool:
+        query = select(JobRow.id).where(_free(moment), _for(fingerprint)).limit(1)
         with reading(self._engine) as session:
-            return session.scalars(select(JobRow.id).where(_free(moment)).limit(1)).first() is not None
+            return session.scalars(query).first() is not None
 
 
 def _free(moment: datetime) -> ColumnElement[bool]:
     return or_(JobRow.lease_until.is_(None), JobRow.lease_until < moment)
 
 
-def _claim_one(session: Session, moment: datetime, worker: str, lease_until: datetime) -> JobRow | None:
+def _for(fingerprint: str | None) -> ColumnElement[bool]:
+    upload = JobRow.fingerprint.is_(None)
+    return upload if fingerprint is None else or_(upload, JobRow.fingerprint == fingerprint)
+
+
+def _claim_one(session: Session, wanted: ColumnElement[bool], values: Mapping[str, Any]) -> JobRow | None:
     # One statement finds and takes: two workers that first looked and then took would double jobs.
     oldest = (
         select(JobRow.id)
-        .where(_free(moment))
-        .order_by(JobRow.id)
+        .where(wanted)
+        .order_by(JobRow.fingerprint.is_not(None), JobRow.id)
         .limit(1)
         .with_for_update(skip_locked=True)  # SQLite has one writer and leaves this out
         .scalar_subquery()
@@ -103,13 +121,7 @@ def _claim_one(session: Session, moment: datetime, worker: str, lease_until: dat
     statement = (
         update(JobRow)
         .where(JobRow.id == oldest)
-        .values(
-            worker=worker,
-            token=uuid4().hex,
-            claimed_at=moment,
-            lease_until=lease_until,
-            attempts=JobRow.attempts + 1,
-        )
+        .values(**values, attempts=JobRow.attempts + 1)
         .returning(JobRow)
         .execution_options(synchronize_session=False)
     )
@@ -119,11 +131,14 @@ def _claim_one(session: Session, moment: datetime, worker: str, lease_until: dat
 def _give_up_exhausted(session: Session, moment: datetime) -> None:
     exhausted = and_(_free(moment), JobRow.attempts >= MAX_ATTEMPTS)
     for row in session.scalars(select(JobRow).where(exhausted)).all():
-        shape = shape_row(session, row.shape_id)
-        shape.status, shape.error_code = Status.FAILED, "gave_up"
-        shape.error_detail = f"{row.attempts} attempts ended without a result"
-        touch(session, shape)
-        announce(session, shape.id, Status.FAILED, shape.updated_at)
+        detail = f"{row.attempts} attempts ended without a result"
+        if row.fingerprint is None:
+            shape = shape_row(session, row.shape_id)
+            shape.status, shape.error_code, shape.error_detail = Status.FAILED, "gave_up", detail
+            touch(session, shape)
+            announce(session, shape.id, Status.FAILED, shape.updated_at)
+        else:
+            keep_failure(session, row.shape_id, row.fingerprint, "gave_up", detail)
         end_row(session, row, "gave_up", moment)
 
 
@@ -144,4 +159,5 @@ def _job_of(row: JobRow) -> Job:
         lease_until=row.lease_until,
         worker=row.worker,
         token=row.token,
+        fingerprint=row.fingerprint,
     )

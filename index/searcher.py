@@ -106,6 +106,16 @@ class Searcher:
         for each in loaded:
             each.save()
 
+    def forget(self) -> None:
+        """Let go of every index that is loaded."""
+        with self._opening:
+            self._indexes.clear()
+
+    @property
+    def loaded(self) -> bool:
+        """Whether any index is in memory."""
+        return bool(self._indexes)
+
     def close(self) -> None:
         """Save, as the last thing."""
         self.save()

@@ -8,12 +8,13 @@ from sqlalchemy import Engine
 
 from index.catalogue import Catalogue
 from index.database import make_engine
-from index.errors import StorageFull
+from index.errors import NewerDescriptions, StorageFull
 from index.file_places import open_files
 from index.files import FileStore
 from index.migrating import migrate
 from index.queue import Queue
 from index.searcher import Searcher
+from index.upcoming import Upcoming
 from index.vocabulary import Vocabulary, default_vocabulary
 from service.intake.incoming import Incoming
 from service.relations.postures import Postures
@@ -22,6 +23,7 @@ from service.settings import Settings
 from worker.parameters import Parameters
 from worker.reading.limits import Limits
 
+NEWER = "a newer version of Faience described this library's shapes anew; update this one"
 MIB = 2**20
 RESERVED = 4  # the part of the space left by uploads that is held by a file, out of reach of other programs
 
@@ -38,10 +40,12 @@ class Library:
     incoming: Incoming  # temporary files of uploads
     reserve: Reserve  # room to remove things on a full disk
     searcher: Searcher
-    parameters: Parameters  # of every description in this library
+    upcoming: Searcher  # among the shapes that are described anew already, while that goes on
+    parameters: Parameters  # of every description that is made here
     limits: Limits  # on what is read
     postures: Postures = field(default_factory=Postures)  # read before
     vocabularies: dict[str, Vocabulary] = field(default_factory=dict)  # read before; one id, one content
+    given: Vocabulary | None = None  # for these parameters, in place of the one that ships with the project
 
     @classmethod
     def open(
@@ -57,11 +61,14 @@ class Library:
         Parameters
         ----------
         vocabulary : Vocabulary, optional
-            For a library that has none yet; the one that ships with the project otherwise.
+            For a library that has none yet, or none of these parameters; the one that ships with the project
+            otherwise.
 
         Raises
         ------
         UnknownStorage, StorageUnreachable, UnknownDatabase
+        NewerDescriptions
+            A newer version of Faience described its shapes anew.
         """
         folder = settings.data_dir
         folder.mkdir(parents=True, exist_ok=True)
@@ -80,8 +87,10 @@ class Library:
             incoming=Incoming(folder / "incoming"),
             reserve=Reserve(folder / "reserve", settings.reserve_bytes // RESERVED),
             searcher=Searcher(catalogue, folder / "index"),
+            upcoming=Searcher(Upcoming(engine), folder / "index-upcoming"),
             parameters=parameters,
             limits=limits or Limits(),
+            given=vocabulary,
         )
 
     def check_space(self, size: int) -> None:
@@ -116,13 +125,16 @@ class Library:
     def close(self) -> None:
         """Save what is only a cache and let go of the rest."""
         self.searcher.close()
+        self.upcoming.close()
         self.incoming.close()
         self.engine.dispose()
 
 
 def _provide_vocabulary(catalogue: Catalogue, parameters: Parameters, first: Vocabulary | None) -> None:
     """Activate a first vocabulary where there is none yet, if it fits the parameters."""
-    if catalogue.active_vocabulary() is not None:
+    if catalogue.left_behind(parameters.fingerprint()):
+        raise NewerDescriptions(NEWER)
+    if catalogue.state().vocabulary_id is not None:
         return
     first = first or default_vocabulary()
     if first.fingerprint == parameters.fingerprint():

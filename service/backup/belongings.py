@@ -3,14 +3,12 @@
 from index.dumping import Belongings
 from index.files import FileStore
 from index.shapes import StoredFile
-from service.storage import PREVIEW, SIGNATURES, THUMBNAIL, derived_key
-
-MADE = (THUMBNAIL, PREVIEW, SIGNATURES)  # of every shape that is ready
+from service.storage import MADE, derived_key
 
 
 def needed_files(shape: Belongings) -> dict[str, StoredFile | None]:
     """Return the keys without which a shape is not whole, with what the catalogue knows of the content."""
-    made = [derived_key(shape.id, name) for name in MADE] if shape.ready else []
+    made = [derived_key(shape.id, name, shape.made_in) for name in MADE] if shape.ready else []
     return {**{file.key: file for file in shape.files}, **dict.fromkeys(made)}
 
 

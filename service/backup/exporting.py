@@ -114,7 +114,7 @@ def _add_file(
         written = archive.add(file_member(key), _readable(library, key))
     except Unreadable as error:
         current = library.catalogue.get_many([shape.id]).get(shape.id)
-        if current is None or current.revision != shape.revision:
+        if current is None or (current.revision, current.made_in) != (shape.revision, shape.made_in):
             raise ShapeChanged from None
         return str(error)
     if known is not None and (written.sha256, written.size) != (known.sha256, known.size):

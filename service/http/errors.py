@@ -70,6 +70,8 @@ TABLE: dict[type[Exception], tuple[HTTPStatus, str]] = {
     NotExplained: (HTTPStatus.UNPROCESSABLE_ENTITY, "This cannot be explained"),
     kept.BadBlock: (HTTPStatus.CONFLICT, "The shape's numbers do not fit"),
     kept.FingerprintMismatch: (HTTPStatus.CONFLICT, "The numbers belong to other parameters"),
+    kept.DescriptionsChanging: (HTTPStatus.SERVICE_UNAVAILABLE, "The shapes are being described anew"),
+    kept.NewerDescriptions: (HTTPStatus.SERVICE_UNAVAILABLE, "A newer version described this library"),
     kept.VocabularyChanged: (HTTPStatus.SERVICE_UNAVAILABLE, "The vocabulary is changing"),
     kept.StorageFull: (HTTPStatus.INSUFFICIENT_STORAGE, "The disk is full"),
     kept.StorageUnreachable: (HTTPStatus.SERVICE_UNAVAILABLE, "The files cannot be reached"),

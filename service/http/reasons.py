@@ -43,7 +43,9 @@ CHANGING: tuple[Reason, ...] = (*READING, CrossOrigin, ReadOnlyKey, kept.Storage
 ONE_SHAPE: tuple[Reason, ...] = (kept.ShapeNotFound,)
 ONE_QUERY: tuple[Reason, ...] = (QueryNotFound,)
 FILE: tuple[Reason, ...] = (kept.FileMissing, 416)
+VERSIONS: tuple[Reason, ...] = (kept.DescriptionsChanging, kept.NewerDescriptions)
 NUMBERS: tuple[Reason, ...] = (
+    *VERSIONS,
     kept.NotReady,
     kept.FileMissing,
     NoVocabulary,
@@ -56,10 +58,12 @@ UPLOAD: tuple[Reason, ...] = (
     *(NoFiles, BadField, BadMetadata, MeshError, TooManyUploads, CrossOrigin, kept.StorageFull),
 )
 QUESTION: tuple[Reason, ...] = (
+    *VERSIONS,
     *(kept.UnknownMethod, kept.BadWeights, UnreadableWeights, kept.VocabularyChanged, NoVocabulary),
     *(kept.FingerprintMismatch, kept.BadBlock, kept.BadVocabulary),
 )
 NEIGHBOURS: tuple[Reason, ...] = (
+    *VERSIONS,
     *(kept.VocabularyChanged, NoVocabulary, kept.FingerprintMismatch, kept.BadBlock, kept.BadVocabulary),
 )
 EXPLAINING: tuple[Reason, ...] = (*QUESTION, kept.FileMissing, kept.NotReady, NotExplained)

@@ -10,18 +10,32 @@ from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from dataclasses import dataclass, field
 from datetime import datetime
 
-from index.errors import CatalogueBusy, LeaseLost, ShapeNotFound, StorageFull, StorageUnreachable
+from index.errors import (
+    CatalogueBusy,
+    LeaseLost,
+    NewerDescriptions,
+    ShapeNotFound,
+    StorageFull,
+    StorageUnreachable,
+)
 from index.jobs import Job
 from index.vocabulary import Vocabulary
 from service.jobs.child import ChildError
 from service.jobs.describing import Describe, InWords, KeptFiles, describe_files, describe_in_words
 from service.jobs.ended import RECORDING, EndedJob, JobWatch, now
 from service.jobs.pool import ChildDied, PoolStopped
-from service.jobs.recording import GAVE_UP, UNEXPECTED, UNEXPECTED_DETAIL, record_description
+from service.jobs.recording import (
+    GAVE_UP,
+    UNEXPECTED,
+    UNEXPECTED_DETAIL,
+    record_description,
+    record_failure,
+)
+from service.jobs.renewing import Renewing
 from service.jobs.sweeping import sweep
 from service.jobs.timing import Stage, Timed, timed, timing
 from service.library import Library
-from service.vocabularies import NoVocabulary, active_vocabulary
+from service.vocabularies import NoVocabulary, own_vocabulary
 from service.watching.context import known_as
 from worker.describe import Description
 from worker.errors import MeshError
@@ -83,7 +97,7 @@ class Worker:
         observe: Observer = lambda *_: None,
         watch: JobWatch = JobWatch(),  # noqa: B008 - it holds nothing
     ) -> None:
-        self._library, self._executor = library, executor
+        self._library, self._executor, self._renewing = library, executor, Renewing(library)
         self._slots, self._name = slots, name
         self._describe, self._observe, self._watch = describe, observe, watch
         self._running: dict[Future[Described], Attempt] = {}
@@ -140,9 +154,14 @@ class Worker:
         self._heartbeat()
 
     def _claim(self) -> None:
+        fingerprint = self._library.parameters.fingerprint()
         while len(self._running) < self._slots + AHEAD and not self._stopping.is_set() and self._has_room():
-            job = self._library.queue.claim(self._name, self._library.settings.lease_seconds)
+            if not self._renewing.may_describe():
+                return
+            job = self._library.queue.claim(self._name, self._library.settings.lease_seconds, fingerprint)
             if job is None:
+                if self._renewing.go_on():
+                    continue
                 return
             self._watch.claimed(job)
             self._submit(job, tries=1)
@@ -181,7 +200,7 @@ class Worker:
 
     def _vocabulary(self) -> Vocabulary | None:
         try:
-            return active_vocabulary(self._library)
+            return own_vocabulary(self._library)
         except NoVocabulary:  # may come while the job runs
             return None
 
@@ -201,7 +220,7 @@ class Worker:
     def _settle_known(self, future: Future[Described], attempt: Attempt) -> None:
         try:
             outcome = self._record(future, attempt)
-        except (LeaseLost, ShapeNotFound) as error:
+        except (LeaseLost, ShapeNotFound, NewerDescriptions) as error:
             log.info("job %s is not ours any more: %s", attempt.job.id, error)
             self._watch.lost(attempt.job, error)
             return
@@ -242,7 +261,7 @@ class Worker:
         return self._fail(attempt.job, GAVE_UP, f"{reason}, {attempt.tries} times in a row")
 
     def _fail(self, job: Job, code: str, detail: str) -> str:
-        self._library.catalogue.record_failed(job, code=code, detail=detail)
+        record_failure(self._library, job, code, detail)
         return code
 
     def _heartbeat(self) -> None:

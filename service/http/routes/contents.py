@@ -50,8 +50,8 @@ def download(library: LibraryPart, shape_id: str, name: str) -> Response:
 )
 def thumbnail(library: LibraryPart, shape_id: str, width: Width = WIDEST) -> Response:
     """Return a picture of a ready shape on a transparent background."""
-    library.catalogue.get(shape_id)
-    return picture(library.files.get(derived_key(shape_id, THUMBNAIL)), width)
+    made_in = library.catalogue.get(shape_id).made_in
+    return picture(library.files.get(derived_key(shape_id, THUMBNAIL, made_in)), width)
 
 
 @router.get(
@@ -63,9 +63,9 @@ def thumbnail(library: LibraryPart, shape_id: str, width: Width = WIDEST) -> Res
 )
 def preview(library: LibraryPart, shape_id: str) -> Response:
     """Return a small coloured mesh of a ready shape."""
-    library.catalogue.get(shape_id)
+    made_in = library.catalogue.get(shape_id).made_in
     try:
-        return file_response(library, derived_key(shape_id, PREVIEW), GLB, PRIVATE)
+        return file_response(library, derived_key(shape_id, PREVIEW, made_in), GLB, PRIVATE)
     except FileMissing:
         raise FileMissing(f"there is no {PREVIEW} before the shape is ready") from None
 
