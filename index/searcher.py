@@ -1,8 +1,9 @@
 """Searcher: ranked answers that are never older than the catalogue."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from threading import Lock
+from typing import Protocol
 
 import numpy.typing as npt
 
@@ -13,6 +14,31 @@ from index.methods import Method, method, with_weights
 from index.ranking import Ranked
 
 _LEFT_BEHIND = 3600.0  # seconds after which a half-written index file is nobody's
+
+
+class View(Protocol):
+    """The vectors of one method, wherever they are: see `MethodIndex` and `index.pgvector.index`."""
+
+    escalations: int  # queries that took a second look to be proven, since the start
+
+    def catch_up(self) -> None:
+        """Bring the view to what the catalogue is now."""
+
+    def proves(self, method: Method, limit: int) -> bool:
+        """Whether answers to such a question are proven to be complete."""
+
+    def rank(
+        self,
+        method: Method,
+        blocks: Mapping[str, npt.ArrayLike],
+        limit: int,
+        exclude: Collection[str],
+        vocabulary_id: str | None,
+    ) -> Ranked:
+        """Return the nearest shapes."""
+
+    def save(self) -> None:
+        """Keep the view for the next run."""
 
 
 class Searcher:
@@ -26,13 +52,18 @@ class Searcher:
         What is searched.
     folder : Path
         Where indexes are kept between runs. Only a cache: it may be emptied at any time.
+    make : callable, optional
+        Makes a method's view; otherwise it is a `MethodIndex`, in memory.
     """
 
-    def __init__(self, catalogue: Catalogue, folder: Path) -> None:
+    def __init__(
+        self, catalogue: Catalogue, folder: Path, make: Callable[[Method], View] | None = None
+    ) -> None:
         self._catalogue = catalogue
         self._store = FileStore(folder)
         self._store.sweep(_LEFT_BEHIND)
-        self._indexes: dict[str, MethodIndex] = {}
+        self._make = make or self._in_memory
+        self._indexes: dict[str, View] = {}
         self._opening = Lock()
 
     def search(
@@ -47,8 +78,8 @@ class Searcher:
     ) -> Ranked:
         """Return the nearest shapes as (id, distance), nearest first, equal distances by id.
 
-        Exactly what comparing the query with every ready shape in double precision would give. A
-        shape that lacks one of the method's blocks is left out.
+        Exactly what comparing the query with every ready shape in double precision would give, unless
+        `proves` says otherwise. A shape that lacks one of the method's blocks is left out.
 
         Parameters
         ----------
@@ -78,6 +109,21 @@ class Searcher:
         found.catch_up()
         return found.rank(asked, query_blocks, limit, exclude, vocabulary_id)
 
+    def proves(self, method_name: str, limit: int, weights: Mapping[str, float] | None = None) -> bool:
+        """Whether no shape can be missing from the answer to such a question.
+
+        Raises
+        ------
+        UnknownMethod, BadWeights
+        """
+        base = method(method_name)
+        return self._index_of(base).proves(with_weights(base, weights or {}), limit)
+
+    def escalations(self) -> dict[str, int]:
+        """Return, by method, how many queries took a second look to be proven, since the start."""
+        with self._opening:
+            return {name: index.escalations for name, index in self._indexes.items()}
+
     def save(self) -> None:
         """Keep every index that is loaded for the next run."""
         with self._opening:
@@ -89,8 +135,11 @@ class Searcher:
         """Save, as the last thing."""
         self.save()
 
-    def _index_of(self, base: Method) -> MethodIndex:
+    def _index_of(self, base: Method) -> View:
         with self._opening:
             if base.name not in self._indexes:
-                self._indexes[base.name] = MethodIndex(base, self._catalogue, self._store)
+                self._indexes[base.name] = self._make(base)
             return self._indexes[base.name]
+
+    def _in_memory(self, base: Method) -> View:
+        return MethodIndex(base, self._catalogue, self._store)

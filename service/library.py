@@ -16,7 +16,7 @@ from index.vocabulary import Vocabulary, default_vocabulary
 from service.intake.incoming import Incoming
 from service.relations.postures import Postures
 from service.reserve import Reserve
-from service.settings import Settings
+from service.settings import IndexKind, Settings
 from worker.parameters import Parameters
 from worker.reading.limits import Limits
 
@@ -72,7 +72,7 @@ class Library:
             files=FileStore(folder / "files"),
             incoming=Incoming(folder / "incoming"),
             reserve=Reserve(folder / "reserve", settings.reserve_bytes // RESERVED),
-            searcher=Searcher(catalogue, folder / "index"),
+            searcher=_searcher(settings, catalogue, engine),
             parameters=parameters,
             limits=limits or Limits(),
         )
@@ -102,6 +102,18 @@ class Library:
         self.searcher.close()
         self.incoming.close()
         self.engine.dispose()
+
+
+def _searcher(settings: Settings, catalogue: Catalogue, engine: Engine) -> Searcher:
+    """Return what ranks, with its vectors where the settings want them."""
+    folder = settings.data_dir / "index"
+    if settings.index == IndexKind.MEMORY:
+        return Searcher(catalogue, folder)
+    from index.pgvector.opening import views  # for whoever asks for it
+
+    return Searcher(
+        catalogue, folder, views(catalogue, engine, graph=settings.index == IndexKind.PGVECTOR_HNSW)
+    )
 
 
 def _provide_vocabulary(catalogue: Catalogue, parameters: Parameters, first: Vocabulary | None) -> None:

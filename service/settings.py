@@ -1,5 +1,6 @@
 """What an operator may change, read from arguments and from the environment (``FAIENCE_…``)."""
 
+from enum import StrEnum
 from ipaddress import ip_address
 from pathlib import Path
 from typing import Annotated
@@ -10,6 +11,14 @@ from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 from index.key_secrets import digest_of
 
 
+class IndexKind(StrEnum):
+    """Where the vectors of searches are."""
+
+    MEMORY = "memory"  # of each process
+    PGVECTOR = "pgvector"  # in the catalogue's PostgreSQL; answers are proven
+    PGVECTOR_HNSW = "pgvector-hnsw"  # there too, found by a graph; answers may lack a shape
+
+
 class Settings(BaseSettings):
     """All settings, with defaults for one machine."""
 
@@ -17,6 +26,7 @@ class Settings(BaseSettings):
 
     data_dir: Path = Path("faience-data")  # everything that is kept
     database_url: str | None = None  # SQLite inside data_dir where none is given
+    index: IndexKind = IndexKind.MEMORY  # where searches find their vectors
     busy_seconds: float = Field(default=15, gt=0)  # that a change waits for another program's lock
     host: str = "127.0.0.1"
     port: int = Field(default=8000, ge=0, le=65535)

@@ -8,7 +8,7 @@ from hypothesis import settings
 from playwright.sync_api import Browser
 
 from tests.browsing import chromium_path, launched
-from tests.databases import DATABASES, KINDS, postgresql
+from tests.databases import DATABASES, INDEXES, KINDS, postgresql
 
 settings.register_profile("shared machine", deadline=None)  # others work on it too: time proves nothing
 settings.load_profile("shared machine")
@@ -61,3 +61,14 @@ def database(request: pytest.FixtureRequest) -> Iterator[str]:
     DATABASES.kind = kind
     yield kind
     DATABASES.kind = "sqlite"
+
+
+@pytest.fixture(scope="module", params=INDEXES)
+def indexed(request: pytest.FixtureRequest) -> Iterator[str]:
+    """Run the tests of a module with vectors in memory, on both databases, and in PostgreSQL."""
+    index, kind = str(request.param).split(", ")
+    if kind == "postgresql":
+        DATABASES.server = request.getfixturevalue("database_server")
+    DATABASES.kind, DATABASES.index = kind, index
+    yield index
+    DATABASES.kind, DATABASES.index = "sqlite", "memory"

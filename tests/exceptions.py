@@ -16,6 +16,7 @@ from index.errors import (
     LeaseLost,
     LibraryNotEmpty,
     NewerFormat,
+    NoPgvector,
     UnknownDatabase,
     UnknownVocabulary,
 )
@@ -30,6 +31,7 @@ INSIDE = {
     KeyNotFound,
     BadKeyName,
     UnknownDatabase,
+    NoPgvector,
     *EXPORTS,
 }
 
