@@ -42,6 +42,7 @@ class Found:
     registered: tuple[str, ...]  # ids of those that were compared a second time, more closely
     blocks: Blocks  # of the query
     vocabulary_id: str  # whose words they are in
+    exact: bool  # whether no shape can be missing
 
 
 def check_question(question: Question) -> None:
@@ -124,7 +125,9 @@ def _rank(
 ) -> Found:
     """Search, and refine the first where the method does; own weights ask for the blocks alone."""
     first = question.refined
-    ranked, blocks, vocabulary_id = _search(library, question, query, max(question.limit, first), exclude)
+    wanted = max(question.limit, first)
+    ranked, blocks, vocabulary_id = _search(library, question, query, wanted, exclude)
+    exact = library.searcher.proves(question.method, wanted, question.weights)
     near: tuple[str, ...] = tuple(shape_id for shape_id, _ in ranked[:first])
     if near:
         stored = library.catalogue.one_block(near, LANDMARKS)
@@ -132,7 +135,9 @@ def _rank(
     ranked = ranked[: question.limit]
     shown = {shape_id for shape_id, _ in ranked}
     registered = tuple(shape_id for shape_id in near if shape_id in shown)
-    return Found(ranked=ranked, registered=registered, blocks=blocks, vocabulary_id=vocabulary_id)
+    return Found(
+        ranked=ranked, registered=registered, blocks=blocks, vocabulary_id=vocabulary_id, exact=exact
+    )
 
 
 def _stored_landmarks(library: Library, shape_id: str, blocks: Blocks) -> QueryLandmarks:

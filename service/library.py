@@ -62,6 +62,7 @@ class Library:
         engine = make_engine(settings.url, settings.busy_seconds)
         migrate(engine)
         catalogue = Catalogue(engine)
+        searcher = _searcher(settings, catalogue, engine)
         parameters = parameters or Parameters()
         _provide_vocabulary(catalogue, parameters, vocabulary)
         return cls(
@@ -72,7 +73,7 @@ class Library:
             files=FileStore(folder / "files"),
             incoming=Incoming(folder / "incoming"),
             reserve=Reserve(folder / "reserve", settings.reserve_bytes // RESERVED),
-            searcher=_searcher(settings, catalogue, engine),
+            searcher=searcher,
             parameters=parameters,
             limits=limits or Limits(),
         )

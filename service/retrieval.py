@@ -9,11 +9,10 @@ from functools import partial
 from typing import Any
 
 from index.shapes import Shape, Status, StoredFile
-from service.asking import Question, check_question, rank_description, rank_near, rank_query
+from service.asking import Found, Question, check_question, rank_description, rank_near, rank_query
 from service.intake.submissions import Submission
 from service.jobs.describing import Describe, describe_files
 from service.library import Library
-from service.refining import Ranked
 from service.relations.relating import relate, relate_stored
 from service.relations.relation import Related
 from service.relations.sides import described_side, remembered_side
@@ -51,6 +50,7 @@ class Answer:
     milliseconds: float  # from the question to here
     hits: tuple[Hit, ...]  # nearest first
     query: Asked | None = None  # a mesh that is no shape of the library
+    exact: bool = True  # whether no shape can be missing
 
 
 def accept_upload(library: Library, submission: Submission) -> tuple[Shape, bool]:
@@ -106,7 +106,7 @@ def find_similar(library: Library, shape_id: str, question: Question) -> Answer:
     found = rank_near(library, shape_id, question)
     asked = found.registered if question.relations else ()
     related = relate_stored(library, shape_id, asked, found.vocabulary_id)
-    return _answer(library, question, found.ranked, related, start)
+    return _answer(library, question, found, related, start)
 
 
 def search_upload(
@@ -145,7 +145,7 @@ def search_upload(
         remember(library, submission, described, found.blocks, found.vocabulary_id) if remembered else None
     )
     asked_about = Asked(id=query_id, name=submission.display_name(), facts=described.facts)
-    return _answer(library, question, found.ranked, related, start, asked_about)
+    return _answer(library, question, found, related, start, asked_about)
 
 
 def find_remembered(library: Library, query_id: str, question: Question) -> Answer:
@@ -164,7 +164,7 @@ def find_remembered(library: Library, query_id: str, question: Question) -> Answ
         side = remembered_side(library, query, found.blocks)
         related = relate(library, side, found.registered, found.vocabulary_id)
     asked = Asked(id=query.id, name=query.name, facts=query.facts)
-    return _answer(library, question, found.ranked, related, start, asked)
+    return _answer(library, question, found, related, start, asked)
 
 
 def change_shape(
@@ -201,14 +201,14 @@ def _delete_files(library: Library, files: Iterable[StoredFile]) -> None:
 def _answer(
     library: Library,
     question: Question,
-    found: Ranked,
+    found: Found,
     related: Mapping[str, Related],
     start: float,
     query: Asked | None = None,
 ) -> Answer:
     """Join distances, relations and shapes; one that was removed in this moment drops out."""
-    shapes = library.catalogue.get_many([shape_id for shape_id, _ in found])
-    kept = [(shapes[shape_id], distance) for shape_id, distance in found if shape_id in shapes]
+    shapes = library.catalogue.get_many([shape_id for shape_id, _ in found.ranked])
+    kept = [(shapes[shape_id], distance) for shape_id, distance in found.ranked if shape_id in shapes]
     return Answer(
         method=question.method,
         milliseconds=1000 * (time.perf_counter() - start),
@@ -217,4 +217,5 @@ def _answer(
             for rank, (shape, distance) in enumerate(kept, start=1)
         ),
         query=query,
+        exact=found.exact,
     )

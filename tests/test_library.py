@@ -4,9 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from index.errors import StorageFull
+from index.errors import NoPgvector, StorageFull
 from index.vocabulary import default_vocabulary
 from service.library import Library
+from tests.databases import DATABASES
 from tests.serving import fake_vocabulary, settings_for
 
 
@@ -39,4 +40,23 @@ def test_a_reserve_of_the_disk_is_kept(tmp_path: Path) -> None:
     library.check_space(10)
     with pytest.raises(StorageFull):
         library.check_space(2**60)
+    library.close()
+
+
+def test_vectors_in_pgvector_need_a_catalogue_in_postgresql(tmp_path: Path) -> None:
+    with pytest.raises(NoPgvector, match="FAIENCE_DATABASE_URL"):
+        Library.open(settings_for(tmp_path, index="pgvector"), vocabulary=fake_vocabulary())
+
+
+@pytest.mark.parametrize(("kind", "proven"), [("memory", True), ("pgvector", True), ("pgvector-hnsw", False)])
+def test_the_settings_say_where_vectors_are(
+    database_server: str, tmp_path: Path, kind: str, proven: bool
+) -> None:
+    DATABASES.kind, DATABASES.server = "postgresql", database_server
+    try:
+        library = Library.open(settings_for(tmp_path, index=kind), vocabulary=fake_vocabulary())
+    finally:
+        DATABASES.kind = "sqlite"
+    assert library.searcher.proves("fused", 24) == proven
+    assert library.searcher.escalations() == {"fused": 0}
     library.close()

@@ -7,7 +7,7 @@ from typing import Any, cast
 import psycopg
 from sqlalchemy import Engine
 
-from index.database import looking, writing
+from index.database import looking, wrapped, writing
 from index.pgvector.names import LOCKS
 
 Cursor = psycopg.Cursor[tuple[Any, ...]]
@@ -23,7 +23,7 @@ def reading_cursor(engine: Engine) -> Iterator[Cursor]:
 @contextmanager
 def writing_cursor(engine: Engine) -> Iterator[Cursor]:
     """One transaction that writes; committed when the block ends."""
-    with writing(engine) as session:
+    with writing(engine) as session, wrapped(engine):
         driver = session.connection().connection.driver_connection
         with cast("psycopg.Connection[tuple[Any, ...]]", driver).cursor() as cursor:
             yield cursor

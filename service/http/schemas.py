@@ -190,6 +190,10 @@ class AnswerModel(BaseModel):
     took_ms: float
     results: list[ResultModel]
     query: QueryModel | None = Field(default=None, description="of a mesh that is not kept")
+    exact: bool = Field(
+        default=True,
+        description="whether no nearer shape can be missing; false where a graph is searched (pgvector-hnsw)",
+    )
 
     @classmethod
     def of(cls, answer: Answer) -> Self:
@@ -199,6 +203,7 @@ class AnswerModel(BaseModel):
             took_ms=round(answer.milliseconds, 3),
             results=[ResultModel.of(hit) for hit in answer.hits],
             query=QueryModel.of(answer.query) if answer.query else None,
+            exact=answer.exact,
         )
 
 
