@@ -46,7 +46,12 @@ def test_an_answer_says_whether_it_is_exact(service: Serving, monkeypatch: pytes
     path = f"/v1/shapes/{shape_id(service, 60)}/similar"
     assert service.client.get(path).json()["exact"] is True
     asked: list[object] = []
-    monkeypatch.setattr("index.searcher.Searcher.proves", lambda _, *question: bool(asked.append(question)))
+
+    def proves(_: object, *question: object) -> bool:
+        asked.append(question)
+        return False
+
+    monkeypatch.setattr("index.searcher.Searcher.proves", proves)
     assert service.client.get(path, params={"limit": 2}).json()["exact"] is False
     assert asked == [("fused", 24, None)]
 
