@@ -7,7 +7,7 @@ import pytest
 from index.database import make_engine
 from index.errors import CatalogueBusy
 from index.methods import METHODS, with_weights
-from index.pgvector.cursors import wait_for_turn, writing_cursor
+from index.pgvector.cursors import reading_cursor, wait_for_turn, writing_cursor
 from index.pgvector.held import Held, read_held
 from index.pgvector.index import PgvectorIndex
 from index.pgvector.names import lock_number
@@ -45,6 +45,12 @@ def held_of(opened: Opened) -> Held:
     return held
 
 
+def tables(opened: Opened) -> list[str]:
+    with reading_cursor(opened.engine) as cursor:
+        cursor.execute("SELECT tablename FROM pg_tables WHERE schemaname = 'faience_index'")
+        return sorted(name for (name,) in cursor.fetchall())
+
+
 def test_what_one_process_brought_up_to_date_no_other_reads_again(
     opened: Opened, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -75,6 +81,26 @@ def test_rows_of_another_form_are_built_anew(opened: Opened, monkeypatch: pytest
     index.catch_up()
     assert held_of(opened).number == before.number + 1
     assert answer(index) == [("a", 1.0)]
+    assert tables(opened) == ["held", f"hks-{before.number + 1}"]  # the old one is gone
+
+
+def test_a_replaced_table_that_is_still_read_costs_no_answer(
+    opened: Opened, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    add_ready(opened, "a")
+    make(opened).catch_up()
+    hasty = make_engine(opened.engine.url.render_as_string(hide_password=False), busy_seconds=0.05)
+    monkeypatch.setattr("index.pgvector.form.VERSION", 999)
+    index = PgvectorIndex(HKS, opened.catalogue, hasty)
+    with reading_cursor(opened.engine) as cursor:
+        cursor.execute('SELECT count(*) FROM faience_index."hks-1"')
+        index.catch_up()
+        assert answer(index) == [("a", 1.0)]
+    assert tables(opened) == ["held", "hks-1", "hks-2"]
+    hasty.dispose()
+    monkeypatch.setattr("index.pgvector.form.VERSION", 1000)
+    make(opened).catch_up()
+    assert tables(opened) == ["held", "hks-3"]  # all that was left goes with the next
 
 
 def test_a_table_that_is_replaced_in_this_moment_is_looked_for_again(

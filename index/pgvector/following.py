@@ -7,6 +7,7 @@ from dataclasses import replace
 from sqlalchemy import Engine
 
 from index.catalogue import Catalogue
+from index.errors import CatalogueBusy
 from index.gathering import Gathered, gather
 from index.layout import Layout
 from index.methods import Method
@@ -14,7 +15,7 @@ from index.pgvector.cursors import Cursor, reading_cursor, wait_for_turn, writin
 from index.pgvector.form import Form
 from index.pgvector.held import Held, read_held, write_held
 from index.pgvector.names import lock_number
-from index.pgvector.table import Table
+from index.pgvector.table import Table, drop_others
 from index.shapes import CatalogueState
 
 _log = logging.getLogger(__name__)
@@ -56,13 +57,23 @@ class Following:
         """Bring the table up to date, unless another process just did or another vocabulary came."""
         try:
             with writing_cursor(self._engine) as cursor:
-                wait_for_turn(cursor, lock_number(self._method.name))
-                held, state = read_held(cursor, self._method.name), self._catalogue.state()
-                if not self._is_current(held, state, state.revision):
-                    write_held(cursor, self._method.name, self._followed(cursor, held, state))
-                    self._require(state)
+                before, after = self._follow(cursor)
         except _Overtaken as overtaken:
             _log.info("the index of %s is brought up to date once more: %s", self._method.name, overtaken)
+            return
+        if before is not None and before.number != after.number:
+            self._sweep()
+
+    def _follow(self, cursor: Cursor) -> tuple[Held | None, Held]:
+        """Return what the table showed, and what it shows when the transaction ends."""
+        wait_for_turn(cursor, lock_number(self._method.name))
+        held, state = read_held(cursor, self._method.name), self._catalogue.state()
+        if held is not None and self._is_current(held, state, state.revision):
+            return held, held
+        followed = self._followed(cursor, held, state)
+        write_held(cursor, self._method.name, followed)
+        self._require(state)
+        return held, followed
 
     def _is_current(self, held: Held | None, state: CatalogueState, revision: int) -> bool:
         if held is None or not held.follows(state) or held.state.revision < revision:
@@ -96,12 +107,9 @@ class Following:
         return replace(held, state=state, errors=errors)
 
     def _built(self, cursor: Cursor, held: Held | None, state: CatalogueState) -> Held:
-        """Make a new table beside the one that is searched, which goes when all is done."""
+        """Make a new table beside the one that is searched."""
         number = held.number + 1 if held else 1
         table = self._filled(cursor, number, self._gather(state))
-        self._require(state)
-        if held is not None and not held.empty:
-            self._table(cursor, held).drop()
         if table is None:
             return Held(state=state, form="", lengths=(), errors=(), number=number, has_graph=False)
         form = table.form
@@ -128,6 +136,16 @@ class Following:
             if self._graph:
                 table.add_graph()
         return table
+
+    def _sweep(self) -> None:
+        """Drop tables that were replaced; one that is still read goes another time."""
+        try:
+            with writing_cursor(self._engine) as cursor:
+                wait_for_turn(cursor, lock_number(self._method.name))
+                held = read_held(cursor, self._method.name)
+                drop_others(cursor, self._method.name, held.number if held else 0)
+        except CatalogueBusy:
+            _log.info("a table of %s that was replaced is still read", self._method.name)
 
     def _table(self, cursor: Cursor, held: Held) -> Table:
         return Table(cursor, Form(Layout(method=self._method, lengths=held.lengths)), held.number)

@@ -49,6 +49,7 @@ class PgvectorIndex:
         self._catalogue = catalogue
         self._graph = graph
         self._following = Following(method, catalogue, engine, graph=graph)
+        self._counting = Lock()
         self._updating = Lock()  # one thread waits for other processes, the others for it
 
     def catch_up(self) -> None:
@@ -81,7 +82,8 @@ class PgvectorIndex:
                     found = self._ranked(cursor, held, method, blocks, limit, exclude, vocabulary_id)
             except UndefinedTable:  # it was built anew meanwhile
                 continue
-            self.escalations += found.escalated
+            with self._counting:
+                self.escalations += found.escalated
             return found.ranked
         raise CatalogueBusy("the index kept being built anew during the query; try again")
 

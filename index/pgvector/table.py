@@ -12,7 +12,7 @@ from index.arrays import RowArray
 from index.pgvector.copying import copied
 from index.pgvector.cursors import Cursor
 from index.pgvector.form import Form
-from index.pgvector.names import table_of
+from index.pgvector.names import SCHEMA, table_of
 
 _CREATE = "CREATE TABLE {} (id text NOT NULL, vector {} NOT NULL, exact bytea NOT NULL)"
 _STORAGE = "ALTER TABLE {} ALTER vector SET STORAGE PLAIN, ALTER exact SET STORAGE EXTERNAL"
@@ -82,3 +82,11 @@ class Table:
 
     def _run(self, statement: sql.Composed) -> None:
         self._cursor.execute(statement)
+
+
+def drop_others(cursor: Cursor, method_name: str, number: int) -> None:
+    """Drop a method's tables but the one of this number."""
+    mine = "SELECT tablename FROM pg_tables WHERE schemaname = %s AND tablename ~ %s AND tablename <> %s"
+    cursor.execute(mine, [SCHEMA, f"^{method_name}-[0-9]+$", f"{method_name}-{number}"])
+    for (name,) in cursor.fetchall():
+        cursor.execute(sql.SQL("DROP TABLE {}").format(sql.Identifier(SCHEMA, name)))
