@@ -7,11 +7,8 @@ DESCRIBING = (1.0, 1.4)  # CPU seconds of a description
 FILES, UPLOAD = 0.75e6, 0.15e6  # bytes: what is derived, and a small upload; scans are larger
 CATALOGUE = 17e3  # bytes of a shape in PostgreSQL: 12.6 kB of blocks, its row, their keys
 MEMORY = 1_090  # bytes of a shape in each process that searches by `fused` in memory: see docs/speed.md
-TABLE, GRAPH = (
-    2_900,
-    2_050,
-)  # bytes of a shape in pgvector, `fused`: vector and exact row; its place in a graph
-SCAN = 1.4e-6  # CPU seconds for a row of `fused` in pgvector
+TABLE, GRAPH = 2_930, 2_050  # bytes of a shape in pgvector by `fused`: its row; its place in a graph
+SCAN = 1.1e-6  # CPU seconds for a row of `fused` in pgvector
 HOUR, DAY = 3_600, 86_400
 
 Row = Mapping[str, str]  # column → cell

@@ -3,6 +3,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from sqlalchemy import text
 
 from index.database import make_engine
 from index.errors import CatalogueBusy
@@ -117,6 +118,18 @@ def test_a_table_that_is_replaced_in_this_moment_is_looked_for_again(
     monkeypatch.setattr("index.pgvector.index.read_held", lambda *_: gone)
     with pytest.raises(CatalogueBusy):
         answer(index)
+
+
+def test_a_table_newer_than_a_restored_catalogue_is_not_believed(opened: Opened) -> None:
+    for shape_id in "ab":
+        add_ready(opened, shape_id)
+    index = make(opened)
+    index.catch_up()
+    with opened.engine.begin() as connection:
+        connection.execute(text("DELETE FROM shapes WHERE id = 'b'"))
+        connection.execute(text("UPDATE state SET revision = revision - 2"))
+    index.catch_up()
+    assert answer(index) == [("a", 1.0)]
 
 
 def test_whoever_waits_too_long_for_another_process_is_told(opened: Opened) -> None:

@@ -47,11 +47,12 @@ class Following:
         self._engine = engine
         self._graph = graph
 
-    def shows(self, state: CatalogueState, revision: int) -> bool:
-        """Tell whether the table belongs to a state of the catalogue, and shows at least a revision."""
+    def shows(self, revision: int | None = None) -> bool:
+        """Tell whether the table shows the catalogue, at least at a revision: the last one unless told."""
         with reading_cursor(self._engine) as cursor:
             held = read_held(cursor, self._method.name)
-        return self._is_current(held, state, revision)
+        state = self._catalogue.state()  # read after the table's, which cannot be later then
+        return self._is_current(held, state, state.revision if revision is None else revision)
 
     def follow(self) -> None:
         """Bring the table up to date, unless another process just did or another vocabulary came."""

@@ -34,8 +34,12 @@ class Held:
         return not self.form
 
     def follows(self, state: CatalogueState) -> bool:
-        """Whether it belongs to this catalogue, of which nothing was replaced since."""
-        return (self.state.library, self.state.epoch) == (state.library, state.epoch)
+        """Whether it shows an earlier moment of the catalogue, of which nothing was replaced since.
+
+        A later moment than the catalogue's own was before that was restored from a copy.
+        """
+        same = (self.state.library, self.state.epoch) == (state.library, state.epoch)
+        return same and self.state.revision <= state.revision
 
 
 def read_held(cursor: Cursor, method_name: str) -> Held | None:

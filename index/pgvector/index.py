@@ -54,11 +54,11 @@ class PgvectorIndex:
 
     def catch_up(self) -> None:
         """Bring the table to what the catalogue is now; two cheap SELECTs where nothing is new."""
-        wanted = self._catalogue.state()
-        if self._following.shows(wanted, wanted.revision):
+        if self._following.shows():
             return
+        wanted = self._catalogue.revision()
         with self._updating:
-            while not self._following.shows(self._catalogue.state(), wanted.revision):
+            while not self._following.shows(wanted):
                 self._following.follow()
 
     def proves(self, method: Method, limit: int) -> bool:
