@@ -32,32 +32,39 @@ def main() -> None:
     """Fill tables, ask, fill in."""
     options = _options()
     start = time.perf_counter()
-    engine = make_engine(options.database)
-    prepare(engine)
-    with threadpool_limits(1):
-        described = described_blocks(DESCRIBED)
-        tables = {"arithmetic": table_of(list(arithmetic()))}
-        if not options.only_arithmetic:
-            tables |= measured(engine, described, options.rows, options.graph_rows)
+    tables = {"arithmetic": table_of(list(arithmetic()))}
+    if options.database is not None:
+        tables |= measured(options.database, options.rows, options.graph_rows)
     fill_page(options.page, tables)
-    engine.dispose()
     print(f"{options.page.name}: {', '.join(tables)}; {time.perf_counter() - start:.0f} s")
 
 
-def measured(
-    engine: Engine, described: Sequence[Blocks], sizes: Sequence[int], graph_rows: int
-) -> Mapping[str, str]:
+def measured(database: str, sizes: Sequence[int], graph_rows: int) -> Mapping[str, str]:
     """Return the tables that are measured; graphs are made up to a number of rows."""
-    queries, room, spending = [], [], Spending(engine)
+    engine = make_engine(database)
+    prepare(engine)
+    with threadpool_limits(1):
+        described, spending = described_blocks(DESCRIBED), Spending(engine)
+        searched = list(by_size(engine, spending, described, sizes, graph_rows))
+        same = list(equality(engine, spending, described))
+    engine.dispose()
+    queries = [row for rows, _ in searched for row in rows]
+    return {
+        "queries": table_of(queries),
+        "room": table_of([room for _, room in searched]),
+        "same": table_of(same),
+    }
+
+
+def by_size(
+    engine: Engine, spending: Spending, described: Sequence[Blocks], sizes: Sequence[int], graph_rows: int
+) -> Iterator[tuple[list[Row], Row]]:
+    """Yield what queries cost and what tables take, for each size and method."""
     for size in sizes:
         for name in TIMED:
             made = make_rows(described, METHODS[name], size, QUERIES)
             built = build(engine, spending, made, graph=size <= graph_rows)
-            queries += list(search_rows(engine, spending, built))
-            room.append(size_row(engine, spending, built))
-            print(*queries[-3:], room[-1], sep="\n", flush=True)
-    same = list(equality(engine, spending, described))
-    return {"queries": table_of(queries), "room": table_of(room), "same": table_of(same)}
+            yield list(search_rows(engine, spending, built)), size_row(engine, spending, built)
 
 
 def equality(engine: Engine, spending: Spending, described: Sequence[Blocks]) -> Iterator[Row]:
@@ -78,10 +85,11 @@ def equality(engine: Engine, spending: Spending, described: Sequence[Blocks]) ->
 
 def _options() -> argparse.Namespace:
     arguments = argparse.ArgumentParser(description=__doc__)
-    arguments.add_argument("database", help="address of an empty PostgreSQL database")
+    arguments.add_argument(
+        "database", nargs="?", help="an empty one in PostgreSQL; without: arithmetic alone"
+    )
     arguments.add_argument("--rows", type=int, nargs="*", default=[20_000, 200_000])
     arguments.add_argument("--graph-rows", type=int, default=20_000, help="rows up to which graphs are made")
-    arguments.add_argument("--only-arithmetic", action="store_true", help="measure nothing")
     arguments.add_argument("--page", type=Path, default=PAGE, help="whose tables are filled")
     return arguments.parse_args()
 

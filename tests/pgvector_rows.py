@@ -41,19 +41,19 @@ class Tabled:
     queries: RowArray  # (q, width)
 
 
-def described() -> list[Blocks]:
-    """Return blocks as long as real ones: shares, and curves with a sign."""
+def described(repeated: int = 1) -> list[Blocks]:
+    """Return blocks as long as real ones, or so many times as long: shares, and curves with a sign."""
     random = np.random.default_rng(7)
     shares = [
-        {name: random.dirichlet(np.full(n, 0.3)).astype(np.float32) for name, n in LENGTHS.items()}
+        {name: random.dirichlet(np.full(repeated * n, 0.3)).astype(np.float32) for name, n in LENGTHS.items()}
         for _ in range(DESCRIBED)
     ]
     return [{**each, "colour-curves": random.standard_normal(144).astype(np.float32)} for each in shares]
 
 
-def tabled(engine: Engine, name: str, n_rows: int, *, graph: bool = False) -> Tabled:
+def tabled(engine: Engine, name: str, n_rows: int, *, graph: bool = False, repeated: int = 1) -> Tabled:
     """Put rows of a method, every fourth one twice, into a table and into memory."""
-    made = make_rows(described(), METHODS[name], n_rows, 4)
+    made = make_rows(described(repeated), METHODS[name], n_rows, 4)
     made.rows[1::4] = made.rows[::4][: len(made.rows[1::4])]
     ids = [f"s{number:06}" for number in np.random.default_rng(1).permutation(n_rows)]
     vectors = Vectors(made.layout)

@@ -63,6 +63,11 @@ def test_a_block_of_no_weight_counts_nothing(engine: Engine) -> None:
     assert found.ranked == rank(rows.vectors, rows.queries[0], 10, (), own)
 
 
+def test_vectors_wider_than_a_page_are_kept_and_compared_too(engine: Engine) -> None:
+    rows = tabled(engine, "hks", 40, repeated=60)  # 2 880 numbers of 32 bits
+    assert proven(engine, rows, 0, 5).ranked == rank(rows.vectors, rows.queries[0], 5)
+
+
 def test_many_equal_rows_take_a_second_look_and_come_by_their_ids(engine: Engine) -> None:
     rows = tabled(engine, "hks", 300)
     same = np.repeat(rows.vectors.rows[:1], 300, axis=0)

@@ -79,17 +79,23 @@ class Following:
     def _is_current(self, held: Held | None, state: CatalogueState, revision: int) -> bool:
         if held is None or not held.follows(state) or held.state.revision < revision:
             return False
-        return held.empty or (self._fits(held) and (held.has_graph or not self._graph))
+        return held.empty or (self._fits(held) and held.has_graph >= self._wants_graph(self._form(held)))
 
     def _fits(self, held: Held) -> bool:
         """Whether this version keeps rows as the table does."""
-        return Form(Layout(method=self._method, lengths=held.lengths)).name == held.form
+        return self._form(held).name == held.form
+
+    def _wants_graph(self, form: Form) -> bool:
+        return self._graph and form.in_page  # no graph takes wider vectors
+
+    def _form(self, held: Held) -> Form:
+        return Form(Layout(method=self._method, lengths=held.lengths))
 
     def _followed(self, cursor: Cursor, held: Held | None, state: CatalogueState) -> Held:
         if held is None or held.empty or not held.follows(state) or not self._fits(held):
             return self._built(cursor, held, state)
         followed = self._changed(cursor, held, state)
-        if self._graph and not held.has_graph:
+        if self._wants_graph(self._form(held)) and not held.has_graph:
             self._table(cursor, held).add_graph()
             followed = replace(followed, has_graph=True)
         return followed
@@ -120,7 +126,7 @@ class Following:
             lengths=form.layout.lengths,
             errors=table.errors,
             number=number,
-            has_graph=self._graph,
+            has_graph=self._wants_graph(form),
         )
 
     def _filled(self, cursor: Cursor, number: int, pieces: Iterable[Gathered]) -> Table | None:
@@ -134,7 +140,7 @@ class Following:
         if table is not None:
             table.add_key()
             table.measure()
-            if self._graph:
+            if self._wants_graph(table.form):
                 table.add_graph()
         return table
 
@@ -149,7 +155,7 @@ class Following:
             _log.info("a table of %s that was replaced is still read", self._method.name)
 
     def _table(self, cursor: Cursor, held: Held) -> Table:
-        return Table(cursor, Form(Layout(method=self._method, lengths=held.lengths)), held.number)
+        return Table(cursor, self._form(held), held.number)
 
     def _gather(self, state: CatalogueState, after_revision: int = 0) -> Iterable[Gathered]:
         return gather(

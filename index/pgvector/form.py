@@ -18,6 +18,7 @@ from index.layout import Layout
 from index.packing import MIDDLE
 
 VERSION = 1  # of this form: raise it when rows are kept in another way
+PAGE_BYTES = 7_600  # of PostgreSQL's 8 192, for a vector; also what a graph takes at most, nearly
 SLACK = 1e-12  # relative, of the double precision in which this is computed
 _LARGEST_HALF, _LARGEST_SINGLE = 2.0**15, 1e30  # kept numbers; what is beyond counts as the end
 
@@ -39,6 +40,11 @@ class Form:
     def column(self) -> str:
         """The type of the vectors in SQL."""
         return f"{'halfvec' if self.halves else 'vector'}({self.layout.width})"
+
+    @property
+    def in_page(self) -> bool:
+        """Whether a vector finds room in a page beside its id; a wider one lies apart."""
+        return (2 if self.halves else 4) * self.layout.width <= PAGE_BYTES
 
     @property
     def name(self) -> str:

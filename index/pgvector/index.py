@@ -62,7 +62,7 @@ class PgvectorIndex:
                 self._following.follow()
 
     def proves(self, method: Method, limit: int) -> bool:
-        """Whether answers to such a question are proven to be complete."""
+        """Whether answers to such a question are sure to be proven complete."""
         own = method.blocks == self._method.blocks  # a graph knows no others
         return not (self._graph and own and TIMES * limit + MORE <= FROM_GRAPH)
 
@@ -107,4 +107,6 @@ class PgvectorIndex:
             return Found(ranked=[])
         layout = Layout(method=self._method, lengths=held.lengths)
         ranking = Ranking(cursor, Form(layout), held, layout.join(blocks), exclude, method)
-        return ranking.proven(limit) if self.proves(method, limit) else ranking.from_graph(limit)
+        if self.proves(method, limit) or not held.has_graph:
+            return ranking.proven(limit)
+        return ranking.from_graph(limit)

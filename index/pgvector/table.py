@@ -15,7 +15,7 @@ from index.pgvector.form import Form
 from index.pgvector.names import SCHEMA, table_of
 
 _CREATE = "CREATE TABLE {} (id text NOT NULL, vector {} NOT NULL, exact bytea NOT NULL)"
-_STORAGE = "ALTER TABLE {} ALTER vector SET STORAGE PLAIN, ALTER exact SET STORAGE EXTERNAL"
+_STORAGE = "ALTER TABLE {} ALTER vector SET STORAGE {}, ALTER exact SET STORAGE EXTERNAL"
 
 
 class Table:
@@ -40,7 +40,8 @@ class Table:
     def create(self) -> None:
         """Make the table, empty."""
         self._run(sql.SQL(_CREATE).format(self._name, sql.SQL(self.form.column)))
-        self._run(sql.SQL(_STORAGE).format(self._name))
+        storage = sql.SQL("PLAIN" if self.form.in_page else "EXTERNAL")
+        self._run(sql.SQL(_STORAGE).format(self._name, storage))
 
     def append(self, ids: Sequence[str], rows: RowArray) -> None:
         """Add rows (m, width) under ids that are new."""
