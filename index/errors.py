@@ -135,6 +135,12 @@ class UnknownStorage(CatalogueError):
     code = "unknown_storage"
 
 
+class NoPgvector(CatalogueError):
+    """An index in pgvector is asked for, and the catalogue's database cannot hold one."""
+
+    code = "no_pgvector"
+
+
 class DamagedIndex(CatalogueError):
     """A saved search index is truncated, altered or of another format."""
 

@@ -47,6 +47,7 @@ class Found:
     blocks: Blocks  # of the query
     vocabulary_id: str  # whose words they are in
     partly: bool = False  # whether only shapes were looked at that are described anew already
+    exact: bool = True  # whether no shape can be missing
 
 
 def check_question(question: Question) -> None:
@@ -188,14 +189,21 @@ def _search(
         vocabulary_id=vocabulary_id,
     )
     try:
-        ranked, partly = search(library.searcher), False
+        ranked, used = search(library.searcher), library.searcher
     except VocabularyChanged:
         if library.catalogue.state().next_vocabulary_id != vocabulary_id:
             raise
-        ranked, partly = search(library.upcoming), True
+        ranked, used = search(library.upcoming), library.upcoming
     if library.upcoming.loaded and library.catalogue.state().next_vocabulary_id is None:
         library.upcoming.forget()  # its shapes are in the other index now
-    return Found(ranked=ranked, registered=(), blocks=blocks, vocabulary_id=vocabulary_id, partly=partly)
+    return Found(
+        ranked=ranked,
+        registered=(),
+        blocks=blocks,
+        vocabulary_id=vocabulary_id,
+        partly=used is library.upcoming,
+        exact=used.proves(question.method, limit, question.weights),
+    )
 
 
 def _until_settled(ask: Callable[[], Found]) -> Found:

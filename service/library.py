@@ -19,7 +19,7 @@ from index.vocabulary import Vocabulary, default_vocabulary
 from service.intake.incoming import Incoming
 from service.relations.postures import Postures
 from service.reserve import Reserve
-from service.settings import Settings
+from service.settings import IndexKind, Settings
 from worker.parameters import Parameters
 from worker.reading.limits import Limits
 
@@ -76,6 +76,7 @@ class Library:
         engine = make_engine(settings.url, settings.busy_seconds)
         migrate(engine)
         catalogue = Catalogue(engine)
+        searcher = _searcher(settings, catalogue, engine)
         parameters = parameters or Parameters()
         _provide_vocabulary(catalogue, parameters, vocabulary)
         return cls(
@@ -86,7 +87,7 @@ class Library:
             files=files,
             incoming=Incoming(folder / "incoming"),
             reserve=Reserve(folder / "reserve", settings.reserve_bytes // RESERVED),
-            searcher=Searcher(catalogue, folder / "index"),
+            searcher=searcher,
             upcoming=Searcher(Upcoming(engine), folder / "index-upcoming"),
             parameters=parameters,
             limits=limits or Limits(),
@@ -128,6 +129,18 @@ class Library:
         self.upcoming.close()
         self.incoming.close()
         self.engine.dispose()
+
+
+def _searcher(settings: Settings, catalogue: Catalogue, engine: Engine) -> Searcher:
+    """Return what ranks, with its vectors where the settings want them."""
+    folder = settings.data_dir / "index"
+    if settings.index == IndexKind.MEMORY:
+        return Searcher(catalogue, folder)
+    from index.pgvector.opening import views  # for whoever asks for it
+
+    return Searcher(
+        catalogue, folder, views(catalogue, engine, graph=settings.index == IndexKind.PGVECTOR_HNSW)
+    )
 
 
 def _provide_vocabulary(catalogue: Catalogue, parameters: Parameters, first: Vocabulary | None) -> None:

@@ -60,6 +60,7 @@ class Answer:
     hits: tuple[Hit, ...]  # nearest first
     query: Asked | None = None  # a mesh that is no shape of the library
     partly: RenewalProgress | None = None  # while all are described anew: with how many it was compared
+    exact: bool = True  # whether no shape can be missing
 
 
 def accept_upload(library: Library, submission: Submission) -> tuple[Shape, bool]:
@@ -243,4 +244,5 @@ def _answer(
         ),
         query=query,
         partly=library.catalogue.renewal() if found.partly else None,
+        exact=found.exact,
     )

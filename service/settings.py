@@ -1,5 +1,6 @@
 """What an operator may change, read from arguments and from the environment (``FAIENCE_…``)."""
 
+from enum import StrEnum
 from ipaddress import ip_address
 from pathlib import Path
 from typing import Annotated, Literal
@@ -8,6 +9,14 @@ from pydantic import Field, SecretStr, field_validator
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 from index.key_secrets import digest_of
+
+
+class IndexKind(StrEnum):
+    """Where the vectors of searches are."""
+
+    MEMORY = "memory"  # of each process
+    PGVECTOR = "pgvector"  # in the catalogue's PostgreSQL; answers are proven
+    PGVECTOR_HNSW = "pgvector-hnsw"  # there too, found by a graph; answers may lack a shape
 
 
 class Settings(BaseSettings):
@@ -21,6 +30,7 @@ class Settings(BaseSettings):
         None  # of the files: s3://BUCKET/PREFIX or file:///FOLDER; inside data_dir without
     )
     presigned: bool = False  # files in a bucket are fetched there, at an address that is good for a while
+    index: IndexKind = IndexKind.MEMORY  # where searches find their vectors
     busy_seconds: float = Field(default=15, gt=0)  # that a change waits for another program's lock
     host: str = "127.0.0.1"
     port: int = Field(default=8000, ge=0, le=65535)

@@ -9,7 +9,7 @@ from hypothesis import settings
 from playwright.sync_api import Browser
 
 from tests.browsing import chromium_path, launched
-from tests.databases import DATABASES, KINDS, engines_let_go, postgresql
+from tests.databases import DATABASES, INDEXES, KINDS, engines_let_go, postgresql
 from tests.storages import KEPT, PLACES, STORAGES, object_storage
 
 settings.register_profile("shared machine", deadline=None)  # others work on it too: time proves nothing
@@ -104,3 +104,14 @@ def kept(request: pytest.FixtureRequest) -> Iterator[str]:
         PLACES.kind = kind
     yield kind
     DATABASES.kind, PLACES.kind = "sqlite", "local"
+
+
+@pytest.fixture(scope="module", params=INDEXES)
+def indexed(request: pytest.FixtureRequest) -> Iterator[str]:
+    """Run the tests of a module with vectors in memory, on both databases, and in PostgreSQL."""
+    index, kind = str(request.param).split(", ")
+    if kind == "postgresql":
+        DATABASES.server = request.getfixturevalue("database_server")
+    DATABASES.kind, DATABASES.index = kind, index
+    yield index
+    DATABASES.kind, DATABASES.index = "sqlite", "memory"

@@ -17,6 +17,7 @@ from index.errors import (
     LeaseLost,
     LibraryNotEmpty,
     NewerFormat,
+    NoPgvector,
     UnknownDatabase,
     UnknownStorage,
     UnknownVocabulary,
@@ -36,6 +37,7 @@ INSIDE = {
     BadWebhook,
     UnknownDatabase,
     UnknownStorage,
+    NoPgvector,
     *EXPORTS,
 }
 

@@ -5,9 +5,10 @@ from types import SimpleNamespace
 
 import pytest
 
-from index.errors import StorageFull, UnknownStorage
+from index.errors import NoPgvector, StorageFull, UnknownStorage
 from index.vocabulary import default_vocabulary
 from service.library import Library
+from tests.databases import DATABASES
 from tests.serving import fake_vocabulary, settings_for
 from tests.storages import PLACES
 
@@ -61,3 +62,22 @@ def test_a_wrong_address_of_the_files_is_refused_at_the_start(tmp_path: Path) ->
     with pytest.raises(UnknownStorage, match="not in 'ftp'"):
         Library.open(settings_for(tmp_path, storage_url="ftp://host/files"))
     assert list(tmp_path.iterdir()) == []
+
+
+def test_vectors_in_pgvector_need_a_catalogue_in_postgresql(tmp_path: Path) -> None:
+    with pytest.raises(NoPgvector, match="FAIENCE_DATABASE_URL"):
+        Library.open(settings_for(tmp_path, index="pgvector"), vocabulary=fake_vocabulary())
+
+
+@pytest.mark.parametrize(("kind", "proven"), [("memory", True), ("pgvector", True), ("pgvector-hnsw", False)])
+def test_the_settings_say_where_vectors_are(
+    database_server: str, tmp_path: Path, kind: str, proven: bool
+) -> None:
+    DATABASES.kind, DATABASES.server = "postgresql", database_server
+    try:
+        library = Library.open(settings_for(tmp_path, index=kind), vocabulary=fake_vocabulary())
+    finally:
+        DATABASES.kind = "sqlite"
+    assert library.searcher.proves("fused", 24) == proven
+    assert library.searcher.escalations() == {"fused": 0}
+    library.close()

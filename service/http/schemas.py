@@ -196,6 +196,10 @@ class AnswerModel(BaseModel):
         description="while all shapes are described anew for a new version of the service: how many are and "
         "were compared with the query; null where all were",
     )
+    exact: bool = Field(
+        default=True,
+        description="whether no nearer shape can be missing; false where a graph is searched (pgvector-hnsw)",
+    )
 
     @classmethod
     def of(cls, answer: Answer) -> Self:
@@ -206,6 +210,7 @@ class AnswerModel(BaseModel):
             results=[ResultModel.of(hit) for hit in answer.hits],
             query=QueryModel.of(answer.query) if answer.query else None,
             partly=RenewalModel.of(answer.partly) if answer.partly else None,
+            exact=answer.exact,
         )
 
 
