@@ -6,10 +6,10 @@ STAMP := $(VENV)/.complete
 
 setup: $(STAMP)
 
-$(STAMP): requirements.lock pyproject.toml
+$(STAMP): requirements.lock pyproject.toml client/pyproject.toml
 	python3 -m venv $(VENV)
 	$(VENV)/bin/pip install --quiet --disable-pip-version-check --requirement requirements.lock
-	$(VENV)/bin/pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
+	$(VENV)/bin/pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable . --editable client
 	touch $@
 
 run: setup
@@ -31,7 +31,7 @@ soak: setup
 
 # Writes the exact versions now in .venv; run after changing pyproject.toml and installing.
 lock:
-	$(VENV)/bin/pip list --format=freeze --exclude faience --exclude pip > requirements.lock
+	$(VENV)/bin/pip list --format=freeze --exclude faience --exclude faience-client --exclude pip > requirements.lock
 
 # Learns the vocabulary that ships with the project again, from shapes made by its own code.
 vocabulary: setup

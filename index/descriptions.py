@@ -9,6 +9,7 @@ from sqlalchemy.orm import Session
 
 from index.blocks import checked_blocks
 from index.database import writing
+from index.deliveries import announce
 from index.errors import BadBlock, FingerprintMismatch, UnknownVocabulary, VocabularyChanged
 from index.jobs import Job, end_job
 from index.revisions import lock_state, touch
@@ -70,6 +71,7 @@ class Descriptions:
             row.status, row.facts, row.fingerprint = Status.READY, dict(facts), fingerprint
             row.error_code = row.error_detail = None
             touch(session, row)
+            announce(session, row.id, Status.READY, row.updated_at)
             return shape_of(row)
 
     def record_failed(self, job: Job, *, code: str, detail: str) -> Shape:
@@ -80,6 +82,7 @@ class Descriptions:
             row = shape_row(session, job.shape_id)
             row.status, row.error_code, row.error_detail = Status.FAILED, code, detail
             touch(session, row)
+            announce(session, row.id, Status.FAILED, row.updated_at)
             return shape_of(row)
 
 

@@ -135,6 +135,18 @@ class BadKeyName(CatalogueError):
     code = "bad_key_name"
 
 
+class WebhookNotFound(CatalogueError):
+    """No webhook has this id."""
+
+    code = "webhook_not_found"
+
+
+class BadWebhook(CatalogueError):
+    """The address of a webhook is none that can be told anything."""
+
+    code = "bad_webhook"
+
+
 class ExportRefused(CatalogueError):
     """The root of the reasons why an exported library is not imported; nothing was changed."""
 

@@ -8,6 +8,7 @@ from sqlalchemy import ColumnElement, Engine, and_, func, or_, select, update
 from sqlalchemy.orm import Session
 
 from index.database import reading, writing
+from index.deliveries import announce
 from index.errors import LeaseLost
 from index.jobs import MAX_ATTEMPTS, Job, end_row, held_row
 from index.revisions import lock_state, now, touch
@@ -122,6 +123,7 @@ def _give_up_exhausted(session: Session, moment: datetime) -> None:
         shape.status, shape.error_code = Status.FAILED, "gave_up"
         shape.error_detail = f"{row.attempts} attempts ended without a result"
         touch(session, shape)
+        announce(session, shape.id, Status.FAILED, shape.updated_at)
         end_row(session, row, "gave_up", moment)
 
 

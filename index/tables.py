@@ -206,3 +206,31 @@ class DismissalRow(Base):
         ForeignKey("shapes.id", ondelete="CASCADE"), primary_key=True, index=True
     )
     created_at: Mapped[datetime]
+
+
+class WebhookRow(Base):
+    """An address that is told when a shape is ready or failed."""
+
+    __tablename__ = "webhooks"
+
+    id: Mapped[str] = mapped_column(primary_key=True)
+    url: Mapped[str]
+    secret: Mapped[bytes]  # signs what is sent, so it is kept as it is
+    created_at: Mapped[datetime]
+    failures: Mapped[int]  # in a row
+    failure: Mapped[str | None]  # the last of them, in words
+    rests_until: Mapped[datetime | None]  # after a failure
+
+
+class DeliveryRow(Base):
+    """What a webhook was not told yet; the row is gone when it was."""
+
+    __tablename__ = "deliveries"
+    __table_args__ = ({"sqlite_autoincrement": True},)  # receivers know a message by its number
+
+    id: Mapped[int] = mapped_column(primary_key=True)  # oldest first
+    webhook_id: Mapped[str] = mapped_column(ForeignKey("webhooks.id", ondelete="CASCADE"), index=True)
+    shape_id: Mapped[str] = mapped_column(ForeignKey("shapes.id", ondelete="CASCADE"), index=True)
+    status: Mapped[str]  # that the shape came to
+    happened_at: Mapped[datetime]
+    lease_until: Mapped[datetime | None]  # None while nobody sends it

@@ -15,6 +15,7 @@ from fastapi.telemetry import TelemetryConfig
 
 from index.keys import Keys
 from index.rehearsal import rehearse as rehearse_search
+from index.shapes import Shape
 from service.http.access_log import LogRequests
 from service.http.dependencies import Services, guard
 from service.http.errors import add_handlers
@@ -37,6 +38,7 @@ from service.http.routes import (
     shapes,
     why,
 )
+from service.http.schemas import ShapeModel
 from service.http.slow_bodies import LimitBodyTime
 from service.http.traces import TraceRequests
 from service.http.turnstile import Turnstile
@@ -59,6 +61,7 @@ from service.watching.metrics import Metrics
 from service.watching.queries import QueriesSeen
 from service.watching.readiness import OK, Readiness
 from service.watching.spans import Spans, open_spans
+from service.webhooks.messenger import telling
 from service.why.sides import rehearse as rehearse_why
 
 # FastAPI's own traces would hold what was searched for, and its own log the words of exceptions.
@@ -166,6 +169,7 @@ def _services(
         load = FirstLoad(library)
         stack.enter_context(load.running())
         stack.enter_context(_rehearsal())
+        stack.enter_context(telling_webhooks(library))
         work = stack.enter_context(_embedded_worker(library, metrics, watch, describe))
         yield Services(
             library=library,
@@ -182,6 +186,15 @@ def _services(
             retire=work.retire,
             describe=describe,
         )
+
+
+def telling_webhooks(library: Library) -> contextlib.AbstractContextManager[None]:
+    """Return what tells webhooks of a library's shapes, as the interface shows them."""
+
+    def read(shape_id: str) -> Shape | None:
+        return library.catalogue.get_many([shape_id]).get(shape_id)
+
+    return telling(library.engine, read, lambda shape: ShapeModel.of(shape).model_dump(mode="json"))
 
 
 @contextlib.contextmanager

@@ -8,7 +8,7 @@ import time
 import uvicorn
 from fastapi import FastAPI
 
-from service.app import child_limits, create_app
+from service.app import child_limits, create_app, telling_webhooks
 from service.draining import DrainingServer
 from service.file_limit import raise_file_limit
 from service.first_run import Report, show_samples
@@ -118,7 +118,7 @@ def run_worker(
     thread = threading.Thread(target=worker.run, name="worker")
     thread.start()
     try:
-        with serving_metrics(metrics, library, report):
+        with telling_webhooks(library), serving_metrics(metrics, library, report):
             stop.wait()
     finally:
         worker.stop(settings.finish_seconds)

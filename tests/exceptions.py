@@ -8,6 +8,7 @@ import index
 import service
 from index.errors import (
     BadKeyName,
+    BadWebhook,
     CatalogueError,
     DamagedExport,
     DamagedIndex,
@@ -18,6 +19,7 @@ from index.errors import (
     NewerFormat,
     UnknownDatabase,
     UnknownVocabulary,
+    WebhookNotFound,
 )
 
 EXPORTS = {ExportRefused, DamagedExport, NewerFormat, LibraryNotEmpty}
@@ -29,6 +31,8 @@ INSIDE = {
     UnknownVocabulary,
     KeyNotFound,
     BadKeyName,
+    WebhookNotFound,
+    BadWebhook,
     UnknownDatabase,
     *EXPORTS,
 }

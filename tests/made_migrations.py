@@ -58,7 +58,7 @@ def pretend_older(patch: pytest.MonkeyPatch, folder: Path, steps: int = 1) -> No
 def take_back_steps(engine: Engine) -> None:
     """Make a database what the first step made it."""
     with engine.begin() as connection:
-        for table in ("api_keys", "dismissals", "tags", "finished_jobs"):
+        for table in ("api_keys", "dismissals", "tags", "finished_jobs", "deliveries", "webhooks"):
             connection.execute(text(f"DROP TABLE {table}"))
         for column in ("queued_at", "claimed_at"):
             connection.execute(text(f"ALTER TABLE jobs DROP COLUMN {column}"))

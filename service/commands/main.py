@@ -18,6 +18,7 @@ from service.commands.key import key
 from service.commands.search import search
 from service.commands.serve import serve
 from service.commands.vocabulary import learn_vocabulary
+from service.commands.webhook import webhook
 from service.commands.worker import worker
 
 app = typer.Typer(
@@ -32,6 +33,7 @@ for command in (serve, worker, index, search, duplicates, evaluate, export):
 app.command("import")(import_file)
 app.command("learn-vocabulary")(learn_vocabulary)
 app.add_typer(key)
+app.add_typer(webhook)
 
 
 def _show_version(wanted: bool) -> None:

@@ -1,8 +1,6 @@
 """What `faience key` does. It opens the database alone: a key must be had before the first start."""
 
-import contextlib
 import json
-from collections.abc import Iterator
 from datetime import datetime
 from pathlib import Path
 
@@ -10,18 +8,17 @@ import typer
 from rich.console import Console
 from rich.table import Column, Table
 
-from index.database import make_engine
 from index.keys import ApiKey, Keys
-from index.migrating import migrate
 from index.scopes import Scope
-from service.commands.failures import CommandFailed
-from service.settings import Settings
+from service.commands.databases import opened_database
+
+MAKER = "faience key create NAME"
 
 
 def create_key(name: str, scope: Scope, data_dir: Path, as_json: bool) -> None:
     """Make a key, in a new library where there is none, and print it."""
-    with _keys_of(data_dir, make=True) as keys:
-        key, secret = keys.create(name, scope)
+    with opened_database(data_dir, maker=MAKER, make=True) as engine:
+        key, secret = Keys(engine).create(name, scope)
     if as_json:
         typer.echo(json.dumps({**_fields(key), "key": secret}))
         return
@@ -39,8 +36,8 @@ def show_keys(data_dir: Path, as_json: bool) -> None:
     CommandFailed
         There is no library.
     """
-    with _keys_of(data_dir) as keys:
-        known = keys.known()
+    with opened_database(data_dir, maker=MAKER) as engine:
+        known = Keys(engine).known()
     if as_json:
         for key in known:
             typer.echo(json.dumps(_fields(key)))
@@ -58,7 +55,8 @@ def revoke_key(key_id: str, data_dir: Path, as_json: bool) -> None:
     CommandFailed, KeyNotFound
         There is no library, or no such key.
     """
-    with _keys_of(data_dir) as keys:
+    with opened_database(data_dir, maker=MAKER) as engine:
+        keys = Keys(engine)
         key, left = keys.revoke(key_id), len(keys.active())
     if as_json:
         typer.echo(json.dumps(_fields(key)))
@@ -69,21 +67,6 @@ def revoke_key(key_id: str, data_dir: Path, as_json: bool) -> None:
             "It was the last one: a service that runs now stays closed until there is another key, or until "
             "it is started again for this machine alone."
         )
-
-
-@contextlib.contextmanager
-def _keys_of(data_dir: Path, *, make: bool = False) -> Iterator[Keys]:
-    settings = Settings(data_dir=data_dir)
-    if make:
-        data_dir.mkdir(parents=True, exist_ok=True)
-    elif settings.database_url is None and not data_dir.is_dir():
-        raise CommandFailed(f"there is no library at {data_dir}; `faience key create NAME` makes one")
-    engine = make_engine(settings.url)
-    try:
-        migrate(engine)
-        yield Keys(engine)
-    finally:
-        engine.dispose()
 
 
 def _fields(key: ApiKey) -> dict[str, str | None]:

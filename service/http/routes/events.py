@@ -56,6 +56,7 @@ async def watch(
 async def _events(
     library: Library, revision: int, welcome: Callable[[], bool]
 ) -> AsyncIterator[ServerSentEvent]:
+    yield ServerSentEvent(id=str(revision))  # no event: what a client goes on from that is cut off before one
     while welcome():  # a key that is revoked hears no more
         revision, found = await to_thread.run_sync(_changes, library, revision)
         for event in found:

@@ -1,0 +1,1 @@
+"""Other programs are told when a shape is ready or failed."""
