@@ -34,10 +34,10 @@ def test_the_first_load_ends_whether_or_not_it_succeeds(
 ) -> None:
     library = open_fake_library(settings_for(tmp_path / "library"))
     load = FirstLoad(library)
-    assert not load.done
+    seen = [load.done]
     with load.running():
         pass
-    assert load.done
+    assert [*seen, load.done] == [False, True]
     assert list(library.searcher.revisions()) == ["fused"]
 
     def broken(_: str) -> None:

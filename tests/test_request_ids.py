@@ -31,7 +31,8 @@ def test_a_harmless_id_is_taken_over(running: Serving, sent: str) -> None:
 
 @pytest.mark.parametrize("sent", ["", "x" * 65, "a b", "<script>", '{"a":1}', "a\tb", "…".encode()])
 def test_any_other_is_replaced(running: Serving, sent: str | bytes) -> None:
-    answer = running.client.get("/v1/shapes/unknown", headers={"X-Request-ID": sent})
+    value = sent if isinstance(sent, bytes) else sent.encode()
+    answer = running.client.get("/v1/shapes/unknown", headers={b"X-Request-ID": value})
     made = answer.headers["x-request-id"]
     assert len(made) == 32
     assert answer.json()["request_id"] == made

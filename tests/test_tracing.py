@@ -50,7 +50,7 @@ def test_a_request_goes_on_with_its_callers_trace(traces: Traces, memory: InMemo
     assert request.parent is not None
     assert f"{request.parent.span_id:016x}" == CALLER.split("-")[2]
     assert rank.parent is not None
-    assert rank.parent.span_id == request.get_span_context().span_id
+    assert rank.parent == request.get_span_context()
     assert request.status.status_code is StatusCode.ERROR
 
 
