@@ -51,7 +51,7 @@ class ObjectFiles:
         return ObjectFiles, (self._url, self._endpoint)
 
     def check(self) -> None:
-        """Look into the bucket; StorageUnreachable where that cannot be, BucketMissing without one."""
+        """Look into the bucket; StorageUnreachable where that fails, BucketMissing where there is none."""
         with named_failures(self._url):
             next(iter(obstore.list(self._store, chunk_size=1)), None)
 

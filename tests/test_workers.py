@@ -300,7 +300,7 @@ def test_an_error_of_the_queue_does_not_end_the_worker(
         assert settled(library, shape_id).status == Status.READY
 
 
-@pytest.mark.parametrize("library", [60.0], indirect=True)  # nobody's lease runs out on a busy machine
+@pytest.mark.parametrize("library", [60.0], indirect=True)  # a lease that no busy machine lets run out
 def test_two_workers_never_describe_the_same_shape_twice(library: Library) -> None:
     counted: list[str] = []
 
