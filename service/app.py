@@ -35,8 +35,8 @@ from service.http.slow_bodies import LimitBodyTime
 from service.http.turnstile import Turnstile
 from service.http.unexpected import AnswerUnexpected
 from service.http.upload_rate import UploadRate
-from service.jobs.child import ChildLimits
 from service.jobs.describing import Describe, describe_files
+from service.jobs.executors import child_limits, start_computing
 from service.jobs.pool import ProcessPerJob
 from service.jobs.workers import Worker, process_name
 from service.key_ring import KeyRing
@@ -95,15 +95,6 @@ def create_app(
     _add_routes(app)
     describe_interface(app)
     return app
-
-
-def child_limits(settings: Settings) -> ChildLimits:
-    """Return what one job may use."""
-    return ChildLimits(
-        memory_bytes=settings.job_memory_bytes,
-        cpu_seconds=settings.job_cpu_seconds,
-        wall_seconds=settings.job_seconds,
-    )
 
 
 def _add_routes(app: FastAPI) -> None:
@@ -172,9 +163,14 @@ def _embedded_worker(library: Library, metrics: Metrics, describe: Describe) -> 
     if slots == 0:
         yield lambda: None
         return
-    pool = ProcessPerJob(slots=slots, limits=child_limits(library.settings))
+    computing = start_computing(library.settings, slots)
     worker = Worker(
-        library, pool, slots=slots, name=process_name(), describe=describe, observe=metrics.observe_job
+        library,
+        computing.executor,
+        slots=computing.slots,
+        name=process_name(),
+        describe=describe,
+        observe=metrics.observe_job,
     )
     thread = threading.Thread(target=worker.run, name="worker")
     thread.start()
@@ -183,4 +179,4 @@ def _embedded_worker(library: Library, metrics: Metrics, describe: Describe) -> 
     finally:
         worker.stop()
         thread.join()  # it gives its jobs back first, while the pool still takes what it submits
-        pool.shutdown(cancel_futures=True)
+        computing.executor.shutdown(cancel_futures=True)

@@ -8,11 +8,11 @@ import time
 import uvicorn
 from fastapi import FastAPI
 
-from service.app import child_limits, create_app
+from service.app import create_app
 from service.file_limit import raise_file_limit
 from service.first_run import Report, show_samples
 from service.http.connections import BoundedConnection
-from service.jobs.pool import ProcessPerJob
+from service.jobs.executors import start_computing
 from service.jobs.workers import Worker, process_name
 from service.library import Library
 from service.listening import check_listening
@@ -43,7 +43,7 @@ def run_server(settings: Settings, workers: int, samples: bool, report: Report =
     """
     settings = settings.model_copy(update={"workers": workers})
     check_listening(settings)
-    _log_to_console()
+    log_to_console()
     raise_file_limit()
     app = create_app(settings)
     server = uvicorn.Server(_config(app, settings))
@@ -87,10 +87,10 @@ def _accompany(app: FastAPI, server: uvicorn.Server, samples: bool, report: Repo
 
 def run_worker(settings: Settings, workers: int, stop: threading.Event) -> None:
     """Work on a library's queue until ``stop`` is set; unfinished jobs go back to the queue."""
-    _log_to_console()
+    log_to_console()
     library = Library.open(settings)
-    pool = ProcessPerJob(slots=workers, limits=child_limits(settings))
-    worker = Worker(library, pool, slots=workers, name=process_name())
+    computing = start_computing(settings, workers)
+    worker = Worker(library, computing.executor, slots=computing.slots, name=process_name())
     thread = threading.Thread(target=worker.run, name="worker")
     thread.start()
     try:
@@ -98,11 +98,12 @@ def run_worker(settings: Settings, workers: int, stop: threading.Event) -> None:
     finally:
         worker.stop()
         thread.join()  # it gives its jobs back first, while the pool still takes what it submits
-        pool.shutdown(cancel_futures=True)
+        computing.executor.shutdown(cancel_futures=True)
         library.close()
 
 
-def _log_to_console() -> None:
+def log_to_console() -> None:
+    """Let people read on stderr what goes on."""
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(levelname)s %(name)s: %(message)s")
     for noisy in ("alembic", "uvicorn.access"):
         logging.getLogger(noisy).setLevel(logging.WARNING)

@@ -11,9 +11,9 @@ import pytest
 
 from index.errors import CatalogueBusy, StorageFull
 from index.shapes import Shape, Status
-from service.app import child_limits
 from service.intake.submissions import receive_paths
 from service.jobs.child import ChildError
+from service.jobs.executors import child_limits
 from service.jobs.pool import ProcessPerJob
 from service.jobs.workers import Attempt, Worker
 from service.library import Library

@@ -1,0 +1,35 @@
+"""A job packed for another machine, which does not see the files of this one."""
+
+import pickle
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+
+@dataclass(frozen=True, kw_only=True)
+class Carried:
+    """A file's content, for those who would read it from a path."""
+
+    content: bytes
+
+    def read_bytes(self) -> bytes:
+        """Return the content, as a path does."""
+        return self.content
+
+
+def packed(function: Callable[..., Any], args: tuple[Any, ...]) -> bytes:
+    """Pickle a function and its arguments; files on this machine's disks go along whole.
+
+    Raises
+    ------
+    OSError
+        A file cannot be read: it is gone, perhaps with its shape.
+    """
+    return pickle.dumps((function, tuple(map(_carried, args))), protocol=pickle.HIGHEST_PROTOCOL)
+
+
+def _carried(argument: Any) -> Any:
+    if isinstance(argument, Mapping) and all(isinstance(each, Path) for each in argument.values()):
+        return {name: Carried(content=path.read_bytes()) for name, path in argument.items()}
+    return argument
