@@ -61,8 +61,8 @@ class Working:
         self.worker = Worker(
             library,
             executor,
-            slots=2,
             **{
+                "slots": 2,
                 "describe": describe_quickly,
                 "observe": lambda outcome, _: self.outcomes.append(outcome),
                 **options,
