@@ -4,17 +4,13 @@ import contextlib
 import os
 import subprocess
 import sys
-import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from service.jobs.cluster import Cluster
 from soak.processes import ROOT, Command, ending, free_port
-from tests.fakes import describe_quickly
 from tests.serving import wait_until
-from worker.describe import Description
 
 
 @dataclass
@@ -64,13 +60,3 @@ def machines(folder: Path, *threads: int) -> Iterator[Machines]:
 def takes(cluster: Cluster, slots: int) -> None:
     """Wait until the cluster takes as many jobs at the same time."""
     wait_until(lambda: cluster.slots() == slots)
-
-
-def describe_at_a_gate(
-    folder: Path, files: Mapping[str, Any], allow_untextured: bool, parameters: Any, limits: Any
-) -> Description:
-    """Leave a mark in a folder for each attempt; describe when the gate is open."""
-    (folder / f"{next(iter(files))}-{os.getpid()}").touch()
-    while not (folder / "open").exists():
-        time.sleep(0.02)
-    return describe_quickly(files, allow_untextured, parameters, limits)

@@ -1,7 +1,6 @@
 """A job on a cluster can only harm itself, and a lost machine or scheduler costs time, never a shape."""
 
 from collections.abc import Iterator
-from functools import partial
 from pathlib import Path
 
 import pytest
@@ -11,11 +10,12 @@ from service.jobs.child import ChildError, ChildLimits
 from service.jobs.cluster import Cluster
 from service.jobs.pool import ChildDied, PoolStopped
 from service.library import Library
-from soak.processes import Command, alive, ending
+from soak.processes import Command, alive, ending, free_port
 from tests import children
-from tests.clusters import Machines, describe_at_a_gate, machines, takes
+from tests.clusters import Machines, machines, takes
 from tests.commanding import json_lines, make_meshes, make_quick, run
 from tests.fakes import coloured_triangle
+from tests.gates import Gate
 from tests.serving import open_fake_library, settings_for, wait_until
 from tests.test_workers import Working, accept, settled
 from worker.errors import Code, MeshError
@@ -47,22 +47,6 @@ def library(tmp_path: Path) -> Iterator[Library]:
     opened = open_fake_library(settings_for(tmp_path / "library"))
     yield opened
     opened.close()
-
-
-class Gate:
-    """Descriptions that wait until it is opened."""
-
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        self.describe = partial(describe_at_a_gate, folder)
-
-    def tried(self) -> int:
-        """Return how many descriptions were begun."""
-        return len(list(self.folder.glob("*.ply-*")))
-
-    def open(self) -> None:
-        """Let them go on."""
-        (self.folder / "open").touch()
 
 
 @pytest.fixture
@@ -136,18 +120,6 @@ def test_letting_go_of_the_cluster_says_that_the_job_is_not_to_blame(
         cluster.submit(children.add, 1, 1)
 
 
-def test_a_machine_killed_in_mid_batch_costs_no_shape(
-    running: Machines, library: Library, cluster: Cluster, gate: Gate
-) -> None:
-    ids = batch(library)
-    with working(library, cluster, gate) as worker:
-        wait_until(lambda: gate.tried() == SLOTS)
-        running.computers[1].kill()
-        gate.open()
-        assert {settled(library, shape_id).status for shape_id in ids} == {Status.READY}
-    assert worker.outcomes == ["ready"] * 6
-
-
 def test_a_scheduler_killed_in_mid_batch_costs_no_shape(
     running: Machines, library: Library, cluster: Cluster, gate: Gate, caplog: pytest.LogCaptureFixture
 ) -> None:
@@ -190,24 +162,30 @@ def test_a_command_indexes_on_the_cluster(
     assert sums["accepted"] == 4
 
 
-def test_a_worker_command_describes_on_the_cluster_and_waits_for_its_scheduler(
+def test_a_worker_command_describes_on_the_cluster(
     running: Machines, library: Library, cluster: Cluster, tmp_path: Path
 ) -> None:
-    running.scheduler.kill()
-    log = tmp_path / "log"
-    command = Command(
-        ("worker", "--data-dir", str(library.settings.data_dir), "--cluster", running.address), log=log
-    )
+    shape_id = accept(library, "a.ply")
+    arguments = ("worker", "--data-dir", str(library.settings.data_dir), "--cluster", running.address)
+    command = Command(arguments, log=tmp_path / "log")
     with ending(command):
         command.start()
-        wait_until(lambda: "jobs wait: no Dask scheduler answers" in log.read_text())
-        shape_id = accept(library, "a.ply")
-        running.scheduler.start()
         assert settled(library, shape_id).error_code is None
         command.stop()
-        assert command.process is not None
-        assert command.process.returncode == 0
-    assert "Traceback" not in log.read_text()
+    assert command.process is not None
+    assert command.process.returncode == 0
+    assert "Traceback" not in command.log.read_text()
+
+
+def test_an_unreachable_scheduler_is_waited_for(caplog: pytest.LogCaptureFixture) -> None:
+    nobody = Cluster(f"tcp://127.0.0.1:{free_port()}", limits=LIMITS)
+    try:
+        wait_until(lambda: any("no Dask scheduler answers" in line for line in caplog.messages))
+        assert nobody.slots() == 0
+        with pytest.raises(PoolStopped):
+            nobody.submit(children.add, 1, 1).result()
+    finally:
+        nobody.shutdown(cancel_futures=True)
 
 
 def test_a_cluster_of_another_release_is_given_no_job(
@@ -225,3 +203,15 @@ def test_a_cluster_of_another_release_is_given_no_job(
         assert newer.slots() == 0
     finally:
         newer.shutdown(cancel_futures=True)
+
+
+def test_a_machine_killed_in_mid_batch_costs_no_shape(
+    running: Machines, library: Library, cluster: Cluster, gate: Gate
+) -> None:
+    ids = batch(library)
+    with working(library, cluster, gate) as worker:
+        wait_until(lambda: gate.tried() == SLOTS)
+        running.computers[1].kill()
+        gate.open()
+        assert {settled(library, shape_id).status for shape_id in ids} == {Status.READY}
+    assert worker.outcomes == ["ready"] * 6

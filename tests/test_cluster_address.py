@@ -36,7 +36,7 @@ def test_anything_else_is_refused(address: str) -> None:
 def test_commands_refuse_it_in_one_line(command: str, tmp_path: Path) -> None:
     mesh = tmp_path / "a.ply"
     mesh.touch()
-    arguments = [mesh, "--data-dir", tmp_path / "library"] if command == "index" else []
+    arguments: list[str | Path] = [mesh, "--data-dir", tmp_path / "library"] if command == "index" else []
     result = run(command, "--cluster", "scheduler", *arguments)
     assert result.exit_code == 1
     assert "as in tcp://scheduler:8786" in plain_line(result)

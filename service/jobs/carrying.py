@@ -29,6 +29,12 @@ def packed(function: Callable[..., Any], args: tuple[Any, ...]) -> bytes:
     return pickle.dumps((function, tuple(map(_carried, args))), protocol=pickle.HIGHEST_PROTOCOL)
 
 
+def run_packed(payload: bytes) -> Any:
+    """Call a packed function; this module imports little, since each child that runs one loads it."""
+    function, args = pickle.loads(payload)  # noqa: S301 - the cluster's own clients are trusted
+    return function(*args)
+
+
 def _carried(argument: Any) -> Any:
     if isinstance(argument, Mapping) and all(isinstance(each, Path) for each in argument.values()):
         return {name: Carried(content=path.read_bytes()) for name, path in argument.items()}

@@ -1,12 +1,12 @@
 """What a worker of a Dask cluster runs: one job, in a child of its own as in the local pool."""
 
-import pickle
 from concurrent.futures import Future, wait
 from importlib.metadata import version
 from typing import Any
 
 from distributed import get_worker
 
+from service.jobs.carrying import run_packed
 from service.jobs.child import ChildError, ChildLimits
 from service.jobs.pool import ChildDied, PoolStopped, ProcessPerJob
 from worker.errors import MeshError
@@ -32,8 +32,7 @@ def compute(limits: ChildLimits, payload: bytes) -> Any:
     Parameters
     ----------
     payload : bytes
-        A pickled function, importable by name, with its arguments. Only the child opens it: what is wrong
-        with it harms one job.
+        From `service.jobs.carrying.packed`. Only the child opens it: what is wrong with it harms one job.
 
     Returns
     -------
@@ -42,14 +41,9 @@ def compute(limits: ChildLimits, payload: bytes) -> Any:
     """
     pool = ProcessPerJob(slots=1, limits=limits)
     try:
-        return _outcome(pool.submit(_run, payload))
+        return _outcome(pool.submit(run_packed, payload))
     finally:
         pool.shutdown(cancel_futures=True)
-
-
-def _run(payload: bytes) -> Any:
-    function, args = pickle.loads(payload)  # noqa: S301 - the cluster's own clients are trusted
-    return function(*args)
 
 
 def _outcome(job: Future[Any]) -> Any:
