@@ -2,11 +2,11 @@
 
 from collections.abc import Callable
 from datetime import datetime, timedelta
-from uuid import uuid4
 
 from sqlalchemy import ColumnElement, Engine, and_, func, or_, select, update
 from sqlalchemy.orm import Session
 
+from index.claiming import attempts_of_oldest, job_of, take_oldest
 from index.database import reading, writing
 from index.errors import LeaseLost
 from index.jobs import MAX_ATTEMPTS, Job, end_row, held_row
@@ -40,16 +40,17 @@ class Queue:
         not taken: its shape becomes `failed` with the code ``gave_up``.
         """
         moment = self._clock()
-        if not self._waits(moment):
-            return None  # asking again and again must not lock others out
-        with writing(self._engine) as session:
-            lock_state(session)
-            _give_up_exhausted(session, moment)
-            row = _claim_one(session, moment, worker, moment + timedelta(seconds=lease_seconds))
-            if row is None:
-                return None
-            _set_status(session, row.shape_id, Status.PROCESSING)
-            return _job_of(row)
+        if self._engine.dialect.name == "sqlite" and not self._waits(moment):
+            return None  # asking again and again must not lock others out, as its writers do from their start
+        while True:
+            with writing(self._engine) as session:
+                attempts = attempts_of_oldest(session, moment)
+                if attempts is None:
+                    return None
+                if attempts < MAX_ATTEMPTS:
+                    return take_oldest(session, moment, worker, moment + timedelta(seconds=lease_seconds))
+                lock_state(session)
+                _give_up_exhausted(session, moment)
 
     def heartbeat(self, job: Job, lease_seconds: float) -> Job:
         """Lengthen the lease from now on; LeaseLost where the job is no longer this worker's."""
@@ -63,7 +64,7 @@ class Queue:
             row = session.execute(statement).scalar_one_or_none()
             if row is None:
                 raise LeaseLost(f"job {job.id} is no longer held by {job.worker}")
-            return _job_of(row)
+            return job_of(row)
 
     def give_back(self, job: Job) -> None:
         """Let others take the job at once; this claim does not count as an attempt."""
@@ -82,37 +83,11 @@ class Queue:
 
     def _waits(self, moment: datetime) -> bool:
         with reading(self._engine) as session:
-            return session.scalars(select(JobRow.id).where(_free(moment)).limit(1)).first() is not None
+            return attempts_of_oldest(session, moment) is not None
 
 
 def _free(moment: datetime) -> ColumnElement[bool]:
     return or_(JobRow.lease_until.is_(None), JobRow.lease_until < moment)
-
-
-def _claim_one(session: Session, moment: datetime, worker: str, lease_until: datetime) -> JobRow | None:
-    # One statement finds and takes: two workers that first looked and then took would double jobs.
-    oldest = (
-        select(JobRow.id)
-        .where(_free(moment))
-        .order_by(JobRow.id)
-        .limit(1)
-        .with_for_update(skip_locked=True)  # SQLite has one writer and leaves this out
-        .scalar_subquery()
-    )
-    statement = (
-        update(JobRow)
-        .where(JobRow.id == oldest)
-        .values(
-            worker=worker,
-            token=uuid4().hex,
-            claimed_at=moment,
-            lease_until=lease_until,
-            attempts=JobRow.attempts + 1,
-        )
-        .returning(JobRow)
-        .execution_options(synchronize_session=False)
-    )
-    return session.execute(statement).scalar_one_or_none()
 
 
 def _give_up_exhausted(session: Session, moment: datetime) -> None:
@@ -129,16 +104,3 @@ def _set_status(session: Session, shape_id: str, status: Status) -> None:
     row = shape_row(session, shape_id)
     row.status = status
     touch(session, row)
-
-
-def _job_of(row: JobRow) -> Job:
-    if row.lease_until is None or row.worker is None or row.token is None:
-        raise LeaseLost(f"job {row.id} is held by nobody")
-    return Job(
-        id=row.id,
-        shape_id=row.shape_id,
-        attempts=row.attempts,
-        lease_until=row.lease_until,
-        worker=row.worker,
-        token=row.token,
-    )
