@@ -1,13 +1,12 @@
 """The queue: jobs are claimed once, leased, and given up after too many attempts."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from datetime import datetime, timedelta
-from typing import Any
-from uuid import uuid4
 
 from sqlalchemy import ColumnElement, Engine, and_, func, or_, select, update
 from sqlalchemy.orm import Session
 
+from index.claiming import find_oldest, job_of, take_oldest
 from index.database import reading, writing
 from index.deliveries import announce
 from index.errors import LeaseLost
@@ -49,19 +48,19 @@ class Queue:
             Of the parameters that this worker describes with; shapes are described anew only for these.
         """
         moment = self._clock()
-        if not self._waits(moment, fingerprint):
-            return None  # asking again and again must not lock others out
-        with writing(self._engine) as session:
-            lock_state(session)
-            _give_up_exhausted(session, moment)
-            wanted = and_(_free(moment), _for(fingerprint))
-            values = {"claimed_at": moment, "lease_until": moment + timedelta(seconds=lease_seconds)}
-            row = _claim_one(session, wanted, {"worker": worker, "token": uuid4().hex, **values})
-            if row is None:
-                return None
-            if row.fingerprint is None:
-                _set_status(session, row.shape_id, Status.PROCESSING)
-            return _job_of(row)
+        # asking again and again must not lock others out, as SQLite's writers do from their start
+        if self._engine.dialect.name == "sqlite" and not self._waits(moment, fingerprint):
+            return None
+        while True:
+            with writing(self._engine) as session:
+                oldest = find_oldest(session, moment, fingerprint)
+                if oldest is None:
+                    return None
+                if oldest.attempts < MAX_ATTEMPTS:
+                    until = moment + timedelta(seconds=lease_seconds)
+                    return take_oldest(session, oldest, moment, worker, until)
+                lock_state(session)
+                _give_up_exhausted(session, moment)
 
     def heartbeat(self, job: Job, lease_seconds: float) -> Job:
         """Lengthen the lease from now on; LeaseLost where the job is no longer this worker's."""
@@ -75,7 +74,7 @@ class Queue:
             row = session.execute(statement).scalar_one_or_none()
             if row is None:
                 raise LeaseLost(f"job {job.id} is no longer held by {job.worker}")
-            return _job_of(row)
+            return job_of(row)
 
     def give_back(self, job: Job) -> None:
         """Let others take the job at once; this claim does not count as an attempt."""
@@ -94,9 +93,8 @@ class Queue:
             return session.scalars(query).one()
 
     def _waits(self, moment: datetime, fingerprint: str | None) -> bool:
-        query = select(JobRow.id).where(_free(moment), _for(fingerprint)).limit(1)
         with reading(self._engine) as session:
-            return session.scalars(query).first() is not None
+            return find_oldest(session, moment, fingerprint) is not None
 
 
 def _free(moment: datetime) -> ColumnElement[bool]:
@@ -106,26 +104,6 @@ def _free(moment: datetime) -> ColumnElement[bool]:
 def _for(fingerprint: str | None) -> ColumnElement[bool]:
     upload = JobRow.fingerprint.is_(None)
     return upload if fingerprint is None else or_(upload, JobRow.fingerprint == fingerprint)
-
-
-def _claim_one(session: Session, wanted: ColumnElement[bool], values: Mapping[str, Any]) -> JobRow | None:
-    # One statement finds and takes: two workers that first looked and then took would double jobs.
-    oldest = (
-        select(JobRow.id)
-        .where(wanted)
-        .order_by(JobRow.fingerprint.is_not(None), JobRow.id)
-        .limit(1)
-        .with_for_update(skip_locked=True)  # SQLite has one writer and leaves this out
-        .scalar_subquery()
-    )
-    statement = (
-        update(JobRow)
-        .where(JobRow.id == oldest)
-        .values(**values, attempts=JobRow.attempts + 1)
-        .returning(JobRow)
-        .execution_options(synchronize_session=False)
-    )
-    return session.execute(statement).scalar_one_or_none()
 
 
 def _give_up_exhausted(session: Session, moment: datetime) -> None:
@@ -146,18 +124,3 @@ def _set_status(session: Session, shape_id: str, status: Status) -> None:
     row = shape_row(session, shape_id)
     row.status = status
     touch(session, row)
-
-
-def _job_of(row: JobRow) -> Job:
-    if row.lease_until is None or row.worker is None or row.token is None:
-        raise LeaseLost(f"job {row.id} is held by nobody")
-    return Job(
-        id=row.id,
-        shape_id=row.shape_id,
-        queued_at=row.queued_at,
-        attempts=row.attempts,
-        lease_until=row.lease_until,
-        worker=row.worker,
-        token=row.token,
-        fingerprint=row.fingerprint,
-    )

@@ -9,6 +9,7 @@ from pydantic import Field, SecretStr, field_validator
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 from index.key_secrets import digest_of
+from service.jobs.cluster_address import checked_address
 
 
 class IndexKind(StrEnum):
@@ -51,6 +52,7 @@ class Settings(BaseSettings):
     job_seconds: float = Field(default=600, gt=0)
     lease_seconds: float = Field(default=60, gt=0)  # after so long without a heartbeat a job is taken again
     poll_seconds: float = Field(default=0.5, gt=0)  # how often an idle worker looks for jobs
+    cluster: str | None = None  # tcp://HOST:PORT of a Dask scheduler that has the jobs computed
     search_slots: int = Field(default=2, ge=1)  # meshes of `search` described at the same time
     search_queue: int = Field(default=8, ge=0)  # others that may wait; more are told to come back
 
@@ -65,6 +67,11 @@ class Settings(BaseSettings):
         if isinstance(value, str):
             return tuple(key.strip() for key in value.split(",") if key.strip())
         return value
+
+    @field_validator("cluster")
+    @classmethod
+    def _check_cluster(cls, value: str | None) -> str | None:
+        return None if value is None else checked_address(value)
 
     @property
     def url(self) -> str:

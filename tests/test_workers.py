@@ -12,10 +12,10 @@ import pytest
 from index.errors import CatalogueBusy, StorageFull, StorageUnreachable
 from index.jobs import Job
 from index.shapes import Shape, Status
-from service.app import child_limits
 from service.intake.submissions import receive_paths
 from service.jobs.child import ChildError
 from service.jobs.ended import EndedJob, JobWatch
+from service.jobs.executors import child_limits
 from service.jobs.pool import ProcessPerJob
 from service.jobs.workers import Attempt, Worker
 from service.library import Library
@@ -65,8 +65,8 @@ class Working:
         self.worker = Worker(
             library,
             executor,
-            slots=2,
             **{
+                "slots": 2,
                 "describe": describe_quickly,
                 "observe": lambda outcome, _: self.outcomes.append(outcome),
                 **options,

@@ -6,7 +6,7 @@ import socket
 import threading
 import time
 from collections.abc import Callable
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from concurrent.futures import FIRST_COMPLETED, CancelledError, Executor, Future, wait
 from dataclasses import dataclass, field
 from datetime import datetime
 
@@ -75,9 +75,9 @@ class Worker:
     Parameters
     ----------
     executor : Executor
-        `service.jobs.pool.ProcessPerJob`, or that of a cluster which sees the same files.
-    slots : int
-        Jobs at the same time.
+        `service.jobs.pool.ProcessPerJob`, or `service.jobs.cluster.Cluster`.
+    slots : int or callable
+        Jobs at the same time; a callable is asked each time, and none are claimed while it says 0.
     describe : callable
         What a job is; importable by name.
     observe : callable
@@ -91,14 +91,15 @@ class Worker:
         library: Library,
         executor: Executor,
         *,
-        slots: int,
+        slots: int | Callable[[], int],
         name: str = "worker",
         describe: Describe = describe_files,
         observe: Observer = lambda *_: None,
         watch: JobWatch = JobWatch(),  # noqa: B008 - it holds nothing
     ) -> None:
         self._library, self._executor, self._renewing = library, executor, Renewing(library)
-        self._slots, self._name = slots, name
+        self._slots = slots if callable(slots) else lambda: slots
+        self._name = name
         self._describe, self._observe, self._watch = describe, observe, watch
         self._running: dict[Future[Described], Attempt] = {}
         self._wake, self._stopping = threading.Event(), threading.Event()
@@ -155,7 +156,7 @@ class Worker:
 
     def _claim(self) -> None:
         fingerprint = self._library.parameters.fingerprint()
-        while len(self._running) < self._slots + AHEAD and not self._stopping.is_set() and self._has_room():
+        while self._has_slot() and not self._stopping.is_set() and self._has_room():
             if not self._renewing.may_describe():
                 return
             job = self._library.queue.claim(self._name, self._library.settings.lease_seconds, fingerprint)
@@ -166,6 +167,10 @@ class Worker:
             self._watch.claimed(job)
             self._submit(job, tries=1)
             self._heartbeat()  # an executor may take its time
+
+    def _has_slot(self) -> bool:
+        slots = self._slots()
+        return slots > 0 and len(self._running) < slots + AHEAD
 
     def _has_room(self) -> bool:
         """Return whether results can be stored: jobs wait, and lose no attempt, while the disk is full."""
@@ -243,7 +248,7 @@ class Worker:
             return "ready"
         except MeshError as error:
             return self._fail(job, error.code, error.detail)
-        except PoolStopped:
+        except (PoolStopped, CancelledError):
             self._hand_back(job)
             return None
         except ChildDied as error:
