@@ -58,8 +58,10 @@ def measure(kind: str, n_shapes: int, processes: Sequence[int]) -> Row:
                 command.start()
             wait_until(lambda: library.catalogue.counts()[Status.READY] == n_shapes)
         with reading(library.engine) as session:
-            ends = list(session.scalars(select(FinishedJobRow).order_by(FinishedJobRow.finished_at)))
-        seconds = (ends[-1].finished_at - ends[0].finished_at).total_seconds()  # the start is not counted
+            ends = list(
+                session.scalars(select(FinishedJobRow.finished_at).order_by(FinishedJobRow.finished_at))
+            )
+        seconds = (ends[-1] - ends[0]).total_seconds()  # the start is not counted
     return {
         "database": kind,
         "processes": str(len(processes)),
