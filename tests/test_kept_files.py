@@ -82,18 +82,20 @@ def test_a_file_that_is_gone_is_a_problem(service: Serving) -> None:
 
 @pytest.fixture
 def storage_door(
-    object_server: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    object_server: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
 ) -> Iterator[tuple[Serving, Door]]:
-    """Serve a library whose bucket lies behind a door."""
+    """Serve a library whose bucket lies behind a door; by signed addresses where a test asks for it."""
+    presigned: bool = getattr(request, "param", False)
     monkeypatch.setattr(object_client, "RETRIES", 0)
     monkeypatch.setattr(PLACES, "kind", "s3")
     with door(object_server) as opened:
         monkeypatch.setenv("AWS_ENDPOINT_URL", opened.address)
-        settings = settings_for(tmp_path / "library", presigned=True, lease_seconds=0.5)
+        settings = settings_for(tmp_path / "library", presigned=presigned, lease_seconds=0.5)
         with serving(settings) as running:
             yield running, opened
 
 
+@pytest.mark.parametrize("storage_door", [True], indirect=True)
 def test_where_it_is_wished_files_are_fetched_from_the_bucket_itself(
     storage_door: tuple[Serving, Door],
 ) -> None:
@@ -109,6 +111,17 @@ def test_where_it_is_wished_files_are_fetched_from_the_bucket_itself(
     assert (preview.headers["content-type"], preview.content[:4]) == ("model/gltf-binary", b"glTF")
     assert service.client.get(f"{path}/thumbnail.png").content[:4] == b"\x89PNG"
     problem(service.client.get(f"{path}/files/b.ply"), 404, "file_missing")
+
+
+def test_who_asks_for_the_head_alone_moves_no_bytes(storage_door: tuple[Serving, Door]) -> None:
+    service, opened = storage_door
+    path = service.add({"a.ply": coloured_triangle(), "long": LONG}).headers["location"]
+    del opened.asked[:]
+    answer = service.client.head(f"{path}/files/long")
+    assert (answer.status_code, answer.headers["content-length"]) == (200, str(len(LONG)))
+    assert [method for method, _ in opened.asked] == ["HEAD"]
+    assert service.client.get(f"{path}/files/long").content == LONG
+    assert [method for method, _ in opened.asked] == ["HEAD", "HEAD", *3 * ["GET"]]
 
 
 @pytest.mark.parametrize("status", [500, 0])

@@ -7,9 +7,11 @@ from collections.abc import AsyncIterator, Mapping
 
 from anyio import to_thread
 from starlette.responses import FileResponse, RedirectResponse, Response
+from starlette.types import Receive, Scope, Send
 
 from index.errors import FileMissing
 from index.files import FileFacts, FileStore
+from service.http.head import ONLY_START
 from service.library import Library
 
 GOOD_FOR = 300.0  # seconds that a signed address can be followed
@@ -70,6 +72,10 @@ class _ObjectResponse(FileResponse):
             stat_result=_as_on_disk(facts),
         )
         self._files, self._key, self._size = files, key, facts.size
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer; nothing is fetched for a body that nobody is sent."""
+        await super().__call__({**scope, "method": "HEAD"} if scope.get(ONLY_START) else scope, receive, send)
 
     @contextlib.asynccontextmanager
     async def _open_file(self) -> AsyncIterator["_ObjectReader"]:  # type: ignore[override]  # its one way in
