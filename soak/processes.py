@@ -14,7 +14,6 @@ from pathlib import Path
 import httpx
 
 ROOT = Path(__file__).parents[1]
-MAIN = "from service.commands.main import main; main()"
 PATIENCE = 300.0  # seconds until what hangs counts as broken; the first start on a machine compiles for one
 
 
@@ -69,13 +68,12 @@ class Command:
     environment: dict[str, str] = field(default_factory=dict)  # beside this process's own
     process: subprocess.Popen[bytes] | None = None
     log: Path = Path(os.devnull)  # what it prints
-    before: str = ""  # Python that comes before it
 
     def start(self) -> None:
         """Start it, again where it was ended."""
         with self.log.open("ab") as log:
             self.process = subprocess.Popen(
-                [sys.executable, "-c", f"{self.before}\n{MAIN}", *self.arguments],
+                [sys.executable, "-c", "from service.commands.main import main; main()", *self.arguments],
                 env={**os.environ, "PYTHONPATH": str(ROOT), **self.environment},
                 stdin=subprocess.DEVNULL,
                 stdout=log,

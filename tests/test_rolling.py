@@ -1,6 +1,5 @@
 """Processes of one library are restarted in turn, and nobody who asks notices."""
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -20,8 +19,6 @@ from tests.serving import open_fake_library, settings_for
 pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
 
 SHAPES = 6
-# Neither compiled functions nor the fork server are made ready: both outlast the short life of these processes.
-QUICKLY = "import service.app as app; app._rehearse = app.ProcessPerJob.warm = lambda *_: None"
 
 
 def filled(library: Library, folder: Path) -> list[str]:
@@ -54,11 +51,7 @@ def test_a_rolling_restart_fails_no_query_and_answers_none_wrongly(tmp_path: Pat
     assert len(expected) == SHAPES
     environment = {"FAIENCE_DRAIN_SECONDS": "3600", "FAIENCE_DATABASE_URL": settings.url}
     ports = [free_port(), free_port()]
-    commands = [serve(settings.data_dir, port, 0, environment) for port in ports]
-    backends = [
-        Backend(command=replace(command, before=QUICKLY), port=port)
-        for command, port in zip(commands, ports, strict=True)
-    ]
+    backends = [Backend(command=serve(settings.data_dir, port, 0, environment), port=port) for port in ports]
     with ending(*(each.command for each in backends)):
         figures = roll(backends, expected, ranked)
     assert figures.broken == ()
