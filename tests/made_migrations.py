@@ -11,6 +11,7 @@ from alembic.operations import Operations
 from sqlalchemy import Engine, text
 
 from index import migrating
+from index.database import make_engine
 
 STEP = '''"""A step that was never made."""
 
@@ -99,6 +100,22 @@ def pretend_newer(patch: pytest.MonkeyPatch, folder: Path, body: str = INITIALS)
     versions = _copied(patch, folder)
     newest = _steps(versions)[-1].name.split("_")[0].removeprefix("r")
     (versions / "r9999_made.py").write_text(STEP.format(newest=newest, body=body))
+
+
+def migrated_library(url: str) -> str:
+    """Migrate a database; return the name of its library."""
+    engine = make_engine(url)
+    migrating.migrate(engine)
+    with engine.connect() as connection:
+        library: str = connection.scalar(text("SELECT library FROM state"))
+    engine.dispose()
+    return library
+
+
+def migrate_with(scripts: Path, url: str) -> None:
+    """Migrate a database by the steps of a folder."""
+    migrating.SCRIPTS = scripts
+    migrating.migrate(make_engine(url))
 
 
 def _copied(patch: pytest.MonkeyPatch, folder: Path) -> Path:

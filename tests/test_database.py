@@ -1,6 +1,4 @@
-import multiprocessing
 import sqlite3
-from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -63,12 +61,6 @@ def test_a_library_of_the_first_version_gets_its_tables_and_keeps_what_it_holds(
     assert migrate_in(tmp_path) == library
     assert {"api_keys", "dismissals", "tags"} <= set(inspect(engine).get_table_names())
     engine.dispose()
-
-
-def test_processes_may_migrate_at_once(tmp_path: Path) -> None:
-    with ProcessPoolExecutor(4, mp_context=multiprocessing.get_context("spawn")) as processes:
-        libraries = set(processes.map(migrate_in, [tmp_path] * 4))
-    assert len(libraries) == 1
 
 
 def test_commits_are_durable_and_keys_are_checked(tmp_path: Path) -> None:
