@@ -28,12 +28,13 @@ from tests.backups import (
     files_of,
     fill,
     forged,
+    of_the_first_schema,
     opened,
     parts_of,
     released,
     rows_of,
 )
-from tests.made_migrations import pretend_newer, pretend_older, take_back_steps
+from tests.made_migrations import pretend_newer
 from tests.storages import only_sqlite
 
 pytestmark = pytest.mark.usefixtures("kept")  # on SQLite and on PostgreSQL, and with files in a bucket
@@ -81,19 +82,13 @@ def test_a_library_that_is_exported_again_gives_the_same_members(tmp_path: Path)
     assert {name for name in one if one[name] != other[name]} == {"library.json", "SHA256SUMS"}
 
 
-def test_an_export_of_the_first_schema_is_brought_to_this_one(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_export_of_the_first_schema_is_brought_to_this_one(tmp_path: Path) -> None:
     with opened(tmp_path / "from") as before:
         fill(before)
         add_queued(before, 99, tags=["Vase"])
         rows, files, found = released(rows_of(before)), files_of(before), answers(before)
-        take_back_steps(before.engine)
-    archive = tmp_path / "library.tar"
-    with monkeypatch.context() as patch:
-        pretend_older(patch, tmp_path)
-        with opened(tmp_path / "from") as before:
-            export_library(before, archive)
+        export_library(before, tmp_path / "library.tar")
+    archive = forged(tmp_path / "library.tar", of_the_first_schema)
     with opened(tmp_path / "to") as after:
         import_library(after, archive)
         jobs = [{**job, "queued_at": None} for job in rows["jobs"]]

@@ -6,34 +6,36 @@ from pathlib import Path
 
 import pytest
 from alembic.util import CommandError
-from sqlalchemy import Engine, select
+from sqlalchemy import Engine
 
-from index import migrating
 from index.catalogue import Catalogue
-from index.database import make_engine, reading
+from index.database import make_engine
 from index.jobs import MAX_ATTEMPTS
 from index.migrating import migrate
 from index.queue import Queue
 from index.schema import revision_of
 from index.searcher import Searcher
 from index.shapes import Status
-from index.tables import Base, StateRow
+from index.tables import Base
 from service.commands.explaining import explain
 from tests.brute_force import agrees
 from tests.catalogues import Opened
 from tests.databases import DATABASES
 from tests.earlier_schemas import REVISIONS, library_at, rows_of, schema_of
-from tests.made_migrations import pretend_newer
+from tests.made_migrations import migrate_with, migrated_library, pretend_newer
 from tests.serving import wait_until
 
 pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
 
-# Makes a table anew, tells that it is in the middle, and never ends by itself.
+ONE_MORE = """
+    op.add_column("shapes", sa.Column("initial", sa.String(), nullable=False, server_default="?"))
+"""
+
+# Changes rows and a table, tells that it is in the middle, and never ends by itself.
 ENDLESS = """
     import pathlib, time
-    with op.batch_alter_table("shapes", recreate="always") as shapes:
-        shapes.add_column(sa.Column("initial", sa.String(), nullable=False, server_default="?"))
     op.execute("DELETE FROM jobs")
+    op.add_column("shapes", sa.Column("initial", sa.String(), nullable=False, server_default="?"))
     pathlib.Path({told!r}).touch()
     time.sleep(3600)
 """
@@ -42,20 +44,6 @@ ENDLESS = """
 def database_in(folder: Path) -> Engine:
     folder.mkdir(exist_ok=True)
     return make_engine(DATABASES.url(folder))
-
-
-def migrate_in(folder: Path, url: str) -> str:
-    engine = make_engine(url)
-    migrate(engine)
-    with reading(engine) as session:
-        library = session.scalars(select(StateRow.library)).one()
-    engine.dispose()
-    return library
-
-
-def migrate_with(scripts: Path, url: str) -> None:
-    migrating.SCRIPTS = scripts
-    migrate(make_engine(url))
 
 
 @pytest.mark.parametrize("revision", REVISIONS)
@@ -102,7 +90,7 @@ def test_a_library_of_any_version_goes_on(tmp_path: Path, revision: str) -> None
 def test_processes_may_migrate_at_once(tmp_path: Path) -> None:
     url = DATABASES.url(tmp_path)
     with ProcessPoolExecutor(3, mp_context=multiprocessing.get_context("spawn")) as processes:
-        libraries = set(processes.map(migrate_in, [tmp_path] * 3, [url] * 3))
+        libraries = set(processes.map(migrated_library, [url] * 3))
     assert len(libraries) == 1
 
 
@@ -134,7 +122,7 @@ def test_a_library_of_a_newer_schema_is_refused_in_words_and_left_as_it_is(
 ) -> None:
     engine, _ = library_at(tmp_path, "head")
     with monkeypatch.context() as patch:
-        pretend_newer(patch, tmp_path)
+        pretend_newer(patch, tmp_path, ONE_MORE)
         migrate(engine)
     before = rows_of(engine)
     with pytest.raises(CommandError) as refused:

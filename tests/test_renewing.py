@@ -12,6 +12,8 @@ from index.errors import DescriptionsChanging, NewerDescriptions
 from index.shapes import Status
 from index.tables import PlainBlockRow, QuantisedBlockRow
 from service.asking import Question
+from service.backup.exporting import export_library
+from service.backup.importing import import_library
 from service.intake.submissions import receive_paths
 from service.library import Library
 from service.relations.duplicates import find_duplicates
@@ -262,3 +264,28 @@ def test_a_killed_worker_costs_time_and_no_shape(
         )
     assert answers(library, earlier) == made_by(tmp_path / "new", REDS, new=True)
     assert library.catalogue.counts()[Status.READY] == len(REDS)
+
+
+def test_a_library_that_is_exported_meanwhile_goes_on_where_it_was(
+    library: Library, earlier: dict[int, str], tmp_path: Path
+) -> None:
+    before = answers(library, earlier)
+    for _ in range(2):
+        assert step(library)
+    held = next_job(library)
+    assert held is not None
+    export_library(library, tmp_path / "library.tar")
+    copy = open_new_library(settings_for(tmp_path / "copy"))
+    import_library(copy, tmp_path / "library.tar")
+    progress = copy.catalogue.renewal()
+    assert progress is not None
+    assert (progress.done, progress.total) == (2, len(REDS))
+    assert answers(copy, earlier) == before
+    work_off(copy)
+    assert answers(copy, earlier) == made_by(tmp_path / "new", REDS, new=True)
+    export_library(copy, tmp_path / "after.tar")
+    copy.close()
+    again = open_new_library(settings_for(tmp_path / "again"))
+    assert import_library(again, tmp_path / "after.tar").damaged == ()
+    assert find_similar(again, earlier[60], Question()).hits
+    again.close()
