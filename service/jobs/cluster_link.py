@@ -11,6 +11,7 @@ log = logging.getLogger(__name__)
 
 LOOK_EVERY = 1.0  # seconds between looks at the cluster, and between attempts to reach it
 CONNECT_SECONDS = 5.0  # after which a scheduler that does not answer is taken for away
+SILENT_SECONDS = 30.0  # after which a connected one is given up, and the jobs with it
 CLOSE_SECONDS = 2.0  # the same for a goodbye
 
 
@@ -54,7 +55,8 @@ class ClusterLink:
     async def _follow(self, client: Client) -> None:
         while client.status == "running":
             scheduler: Any = client.scheduler  # its methods are the scheduler's, and have no types
-            seen = await scheduler.identity(n_workers=-1)
+            async with asyncio.timeout(SILENT_SECONDS):
+                seen = await scheduler.identity(n_workers=-1)
             self._count(seen["workers"].values())
             await asyncio.sleep(LOOK_EVERY)
 
