@@ -2,6 +2,7 @@
 
 import contextlib
 import os
+import socket
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -11,6 +12,8 @@ from pathlib import Path
 from service.jobs.cluster import Cluster
 from soak.processes import ROOT, Command, ending, free_port
 from tests.serving import wait_until
+
+LISTENING = "0A"  # in the kernel's tables
 
 
 @dataclass
@@ -60,3 +63,17 @@ def machines(folder: Path, *threads: int) -> Iterator[Machines]:
 def takes(cluster: Cluster, slots: int) -> None:
     """Wait until the cluster takes as many jobs at the same time."""
     wait_until(lambda: cluster.slots() == slots)
+
+
+def listens_at(pid: int) -> set[str]:
+    """Return the addresses where a process takes connections, IPv6 as it is; on Linux."""
+    sockets = {str(name.readlink()) for name in Path(f"/proc/{pid}/fd").iterdir()}
+    found = set()
+    for family, table in ((socket.AF_INET, "tcp"), (socket.AF_INET6, "tcp6")):
+        for line in Path(f"/proc/{pid}/net/{table}").read_text().splitlines()[1:]:
+            fields = line.split()
+            if fields[3] == LISTENING and f"socket:[{fields[9]}]" in sockets:
+                words = bytes.fromhex(fields[1].partition(":")[0])
+                parts = [words[start : start + 4][::-1] for start in range(0, len(words), 4)]
+                found.add(socket.inet_ntop(family, b"".join(parts)))
+    return found

@@ -12,7 +12,7 @@ from service.jobs.pool import ChildDied, PoolStopped
 from service.library import Library
 from soak.processes import Command, alive, ending, free_port
 from tests import children
-from tests.clusters import Machines, machines, takes
+from tests.clusters import Machines, listens_at, machines, takes
 from tests.commanding import json_lines, make_meshes, make_quick, run
 from tests.fakes import coloured_triangle
 from tests.gates import Gate
@@ -68,6 +68,11 @@ def test_values_come_back_each_from_a_process_of_its_own(cluster: Cluster) -> No
     assert cluster.submit(children.add, 2, 3).result() == 5
     assert len(cluster.submit(children.return_much, 20_000_000).result()) == 20_000_000
     assert len({cluster.submit(children.identify).result() for _ in range(3)}) == 3
+
+
+def test_a_machine_listens_only_where_its_scheduler_is(running: Machines, cluster: Cluster) -> None:
+    for machine in running.computers:
+        assert listens_at(machine.pid) == {"127.0.0.1"}
 
 
 def test_what_goes_wrong_is_told_as_by_the_local_pool(cluster: Cluster) -> None:

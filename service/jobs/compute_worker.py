@@ -35,9 +35,10 @@ async def offer(address: str, threads: int, stop: asyncio.Event) -> None:
     stopping = asyncio.create_task(stop.wait())
     silent = False
     while not stop.is_set():
-        if await _answers(address):
+        here = await _reached_from(address)
+        if here is not None:
             silent = False
-            joined = asyncio.create_task(_join(address, threads))
+            joined = asyncio.create_task(_join(address, threads, here))
             await asyncio.wait([joined, stopping], return_when=asyncio.FIRST_COMPLETED)
             joined.cancel()
             await asyncio.wait([joined])
@@ -52,25 +53,28 @@ def _warm() -> None:
     ProcessPerJob(slots=1, limits=ChildLimits(memory_bytes=0, cpu_seconds=0, wall_seconds=0)).warm()
 
 
-async def _answers(address: str) -> bool:
-    """Return whether anybody listens there."""
+async def _reached_from(address: str) -> str | None:
+    """Return which address of this machine reaches the scheduler; None where nobody listens there."""
     place = urlsplit(address)
     try:
         async with asyncio.timeout(CONNECT_SECONDS):
             _, writer = await asyncio.open_connection(place.hostname, place.port)
+            here: str = writer.get_extra_info("sockname")[0]
             writer.close()
             await writer.wait_closed()
     except (OSError, TimeoutError):
-        return False
-    return True
+        return None
+    return here
 
 
-async def _join(address: str, threads: int) -> None:
+async def _join(address: str, threads: int, here: str) -> None:
     """Be a worker of the cluster until its scheduler leaves, or this is cancelled."""
     worker = Worker(
         address,
         nthreads=threads,
         resources={release(): threads},
+        host=here,  # Dask asks nobody for a key: the scheduler's network, and no other, may speak to it
+        dashboard_address="127.0.0.1:0",  # where nothing is served
         memory_limit=0,  # the children have limits of their own
         death_timeout=CONNECT_SECONDS,
     )
