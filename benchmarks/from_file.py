@@ -24,7 +24,7 @@ from service.commands.discovery import find_sources
 from service.commands.indexing import AHEAD
 from service.commands.opening import opened, settings_for, working
 from service.intake.submissions import receive_paths
-from service.jobs.describing import describe_files, describe_in_words
+from service.jobs.describing import KeptFiles, describe_files, describe_in_words
 from service.jobs.recording import record_description
 from service.library import Library
 from service.retrieval import accept_upload
@@ -149,7 +149,7 @@ def store_once(library: Library, paths: Mapping[str, Path], number: int) -> None
     if job is None:
         raise LookupError("the queue is empty")
     shape = library.catalogue.get(job.shape_id)
-    sent = {file.name: library.files.path(file.key) for file in shape.files}
+    sent = KeptFiles(library.files, {file.name: file.key for file in shape.files})
     vocabulary = active_vocabulary(library)
     found = describe_in_words(describe_files, vocabulary, sent, False, library.parameters, library.limits)
     record_description(library, job, *found)

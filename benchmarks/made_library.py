@@ -51,7 +51,8 @@ def make_library(folder: Path, n_shapes: int) -> list[str]:
             quantised = _mixed(words[one], words[other], random)
             _add_row(session, number, shape_id, described[one])
             key = {"shape_id": shape_id}
-            session.execute(insert(PlainBlockRow), _rows(key, plain))
+            by = key | {"fingerprint": vocabulary.fingerprint}
+            session.execute(insert(PlainBlockRow), _rows(by, plain))
             session.execute(
                 insert(QuantisedBlockRow), _rows(key | {"vocabulary_id": vocabulary.id}, quantised)
             )

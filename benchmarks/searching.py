@@ -19,8 +19,8 @@ from benchmarks.made_rows import Blocks, Made, described_blocks, make_rows
 from index.arrays import RowArray, SingleArray
 from index.compiled import compiled
 from index.distances import distances
-from index.files import FileStore
 from index.index_file import Header, load_index, save_index
+from index.local_files import LocalFiles
 from index.methods import METHODS
 from index.ranking import Ranked, rank
 from index.vectors import Vectors
@@ -192,7 +192,7 @@ def _start(vectors: Vectors, made: Made) -> float:
         ids=list(vectors.ids), revisions=[1] * len(vectors),
     )  # fmt: skip
     with tempfile.TemporaryDirectory() as folder:
-        save_index(FileStore(Path(folder)), "index", header, vectors.arrays())
+        save_index(LocalFiles(Path(folder)), "index", header, vectors.arrays())
 
         def start() -> None:
             found, arrays = load_index(Path(folder) / "index")

@@ -9,6 +9,7 @@ from index.editing import Editing
 from index.listing import Listing
 from index.progress import Progress
 from index.questions import Questions
+from index.renewals import Renewals
 from index.revisions import Revisions
 from index.stored_blocks import StoredBlocks
 from index.stored_vocabularies import Vocabularies
@@ -22,6 +23,7 @@ class Catalogue(
     Revisions,
     StoredBlocks,
     Vocabularies,
+    Renewals,
     Listing,
     Questions,
     Dismissals,

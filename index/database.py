@@ -54,7 +54,7 @@ def looking(engine: Engine) -> Iterator[DBAPICursor]:
     """Do as `reading` does, with the driver's own cursor: for what every search asks."""
     # PostgreSQL's driver begins by itself
     begin = "BEGIN" if engine.dialect.name == "sqlite" else ONE_MOMENT_SQL
-    with named_failures(), _wrapped(engine):
+    with named_failures(), wrapped(engine):
         connection = engine.raw_connection()
         try:
             cursor = connection.cursor()
@@ -95,7 +95,7 @@ def named_failures() -> Iterator[None]:
 
 
 @contextmanager
-def _wrapped(engine: Engine) -> Iterator[None]:
+def wrapped(engine: Engine) -> Iterator[None]:
     """Give a driver's failure SQLAlchemy's name, as its own connections do."""
     try:
         yield

@@ -12,10 +12,11 @@ from index.database import writing
 from index.deliveries import announce
 from index.errors import BadBlock, FingerprintMismatch, UnknownVocabulary, VocabularyChanged
 from index.jobs import Job, end_job
+from index.renewed import keep_failure
 from index.revisions import lock_state, touch
 from index.rows import shape_of, shape_row
 from index.shapes import Shape, Status
-from index.stored_blocks import write_plain, write_quantised
+from index.stored_blocks import delete_blocks, write_plain, write_quantised
 from index.tables import StateRow, VocabularyRow
 
 
@@ -47,7 +48,8 @@ class Descriptions:
         blocks, quantised : mapping of str to (n,) arrays
             Blocks free of a vocabulary, and those in its words; float32, finite.
         vocabulary_id : str
-            The active vocabulary.
+            The active vocabulary or, while shapes are described anew, the next one; then the shape is
+            found once that is active.
 
         Raises
         ------
@@ -65,10 +67,14 @@ class Descriptions:
             state = lock_state(session)
             end_job(session, job, Status.READY)
             row = shape_row(session, job.shape_id)
-            _check_vocabulary(session, state, vocabulary_id, fingerprint)
-            write_plain(session, row.id, plain)
+            check_vocabulary(session, state, vocabulary_id, fingerprint)
+            delete_blocks(session, row.id)  # of an earlier time at which it was ready
+            if row.made_in is not None:
+                keep_failure(session, row.id, row.made_in, "replaced", "by another description")  # tidied up
+            write_plain(session, row.id, fingerprint, plain)
             write_quantised(session, row.id, vocabulary_id, words)
             row.status, row.facts, row.fingerprint = Status.READY, dict(facts), fingerprint
+            row.made_in = None
             row.error_code = row.error_detail = None
             touch(session, row)
             announce(session, row.id, Status.READY, row.updated_at)
@@ -110,7 +116,8 @@ def check_fingerprint(vocabulary: VocabularyRow, fingerprint: str | None) -> Non
         )
 
 
-def _check_vocabulary(session: Session, state: StateRow, vocabulary_id: str, fingerprint: str) -> None:
+def check_vocabulary(session: Session, state: StateRow, vocabulary_id: str, fingerprint: str) -> None:
+    """Refuse a vocabulary of other parameters, or one that is not active and not the next one."""
     check_fingerprint(known_vocabulary(session, vocabulary_id), fingerprint)
-    if state.vocabulary_id != vocabulary_id:
+    if vocabulary_id not in (state.vocabulary_id, state.next_vocabulary_id):
         raise VocabularyChanged(f"the active vocabulary is {state.vocabulary_id}, not {vocabulary_id}")

@@ -32,6 +32,7 @@ class Belongings:
     id: str
     revision: int  # of its last change
     ready: bool  # whether files were made of it
+    made_in: str | None = None  # folder of these; see Shape
     files: tuple[StoredFile, ...]  # as uploaded
 
 
@@ -58,7 +59,13 @@ class Moment:
             last = rows[-1].id
             for row in rows:
                 ready = row.status == Status.READY
-                yield Belongings(id=row.id, revision=row.revision, ready=ready, files=stored_files(row))
+                yield Belongings(
+                    id=row.id,
+                    revision=row.revision,
+                    ready=ready,
+                    made_in=row.made_in,
+                    files=stored_files(row),
+                )
             self._session.expunge_all()  # none is held in memory for long
 
     def tables(self, but: Collection[str] = ()) -> Iterator[tuple[str, Iterator[dict[str, Any]]]]:

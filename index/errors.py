@@ -87,6 +87,18 @@ class VocabularyChanged(CatalogueError):
     code = "vocabulary_changed"
 
 
+class DescriptionsChanging(CatalogueError):
+    """All shapes are being described anew; this can be compared when that is done."""
+
+    code = "descriptions_changing"
+
+
+class NewerDescriptions(CatalogueError):
+    """A newer version of Faience described this library anew; this one must not mix with it."""
+
+    code = "newer_descriptions"
+
+
 class LeaseLost(CatalogueError):
     """The job is no longer this worker's: its lease ran out and another took it, or its shape is gone."""
 
@@ -109,6 +121,24 @@ class UnknownDatabase(CatalogueError):
     """The address of the catalogue's database names a kind that is not supported."""
 
     code = "unknown_database"
+
+
+class StorageUnreachable(CatalogueError):
+    """The object storage of the files does not answer, or refuses; later it may not."""
+
+    code = "storage_unreachable"
+
+
+class UnknownStorage(CatalogueError):
+    """The address of the file storage names a kind that is not supported, or a bucket that is not there."""
+
+    code = "unknown_storage"
+
+
+class NoPgvector(CatalogueError):
+    """An index in pgvector is asked for, and the catalogue's database cannot hold one."""
+
+    code = "no_pgvector"
 
 
 class DamagedIndex(CatalogueError):

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from index.errors import DamagedIndex
-from index.files import FileStore
+from index.local_files import LocalFiles
 
 _FORMAT = 2  # raised whenever this file's layout changes
 _PIECE = 1 << 24  # bytes written at once
@@ -38,7 +38,7 @@ class Header:
     format: int = _FORMAT
 
 
-def save_index(store: FileStore, key: str, header: Header, arrays: Arrays) -> None:
+def save_index(store: LocalFiles, key: str, header: Header, arrays: Arrays) -> None:
     """Write a file aside, flush it, and put it in the place of the last one."""
 
     def fill(file: IO[bytes]) -> int:

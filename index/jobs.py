@@ -25,11 +25,12 @@ class Job:
     lease_until: datetime  # UTC; another worker may take the job after this
     worker: str  # who holds it
     token: str  # proves that this claim is the latest one
+    fingerprint: str | None = None  # to describe a ready shape anew, with these parameters; None: an upload
 
 
-def enqueue(session: Session, shape_id: str) -> None:
+def enqueue(session: Session, shape_id: str, fingerprint: str | None = None) -> None:
     """Add a job, in the transaction that makes it necessary."""
-    session.add(JobRow(shape_id=shape_id, attempts=0, queued_at=now()))
+    session.add(JobRow(shape_id=shape_id, attempts=0, queued_at=now(), fingerprint=fingerprint))
 
 
 def held_row(session: Session, job: Job) -> JobRow:

@@ -8,10 +8,10 @@ import numpy.typing as npt
 
 from index.catalogue import Catalogue
 from index.errors import DamagedIndex, StorageFull, VocabularyChanged
-from index.files import FileStore
 from index.gathering import Gathered, gather, put_all
 from index.index_file import Header, load_index, save_index
 from index.layout import Layout
+from index.local_files import LocalFiles
 from index.locks import SharedLock
 from index.methods import Method
 from index.ranking import Ranked, rank
@@ -30,11 +30,12 @@ class MethodIndex:
         From the table, with its own weights.
     catalogue : Catalogue
         The truth.
-    store : FileStore
+    store : LocalFiles
         Where the view is kept between runs.
     """
 
-    def __init__(self, method: Method, catalogue: Catalogue, store: FileStore) -> None:
+    def __init__(self, method: Method, catalogue: Catalogue, store: LocalFiles) -> None:
+        self.escalations = 0  # bounds in memory always prove the answer
         self._method = method
         self._names = [block.name for block in method.blocks]
         self._catalogue = catalogue
@@ -79,6 +80,10 @@ class MethodIndex:
             if self._vectors is None:
                 return []
             return rank(self._vectors, self._vectors.layout.join(blocks), limit, exclude, method)
+
+    def proves(self, method: Method, limit: int) -> bool:  # noqa: ARG002 - as all views are asked
+        """Whether answers to such a question are proven to be complete: always."""
+        return True
 
     def save(self) -> None:
         """Keep the view for the next run; nothing happens where the file already shows it."""

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from datetime import datetime, timedelta
 from statistics import median
 
-from sqlalchemy import Engine, func, select
+from sqlalchemy import ColumnElement, Engine, func, select
 from sqlalchemy.orm import Session
 
 from index.database import reading
@@ -21,8 +21,9 @@ _SAMPLE = 1_000  # jobs of which the median is taken
 class QueueProgress:
     """The queue in one moment."""
 
-    queued: int  # jobs that nobody holds
-    held: Mapping[str, int]  # worker → jobs that it holds
+    queued: int  # uploads that nobody holds
+    processing: int  # uploads that workers hold
+    held: Mapping[str, int]  # worker → jobs that it holds, also those of shapes that are described anew
     oldest_queued_at: datetime | None  # UTC; None where nothing waits
     last_minute: int  # jobs that ended
     last_hour: int
@@ -45,11 +46,13 @@ class Progress:
         """
         moment = moment or now()
         with reading(self._engine) as session:
-            held = _held(session, moment)
-            total = session.scalars(select(func.count()).select_from(JobRow)).one()
-            queued, rate = total - sum(held.values()), _rate(session, moment)
+            held, rate = _held(session, moment), _rate(session, moment)
+            free = select(func.count()).select_from(JobRow).where(_free(moment))
+            uploads = select(func.count()).select_from(JobRow).where(JobRow.fingerprint.is_(None))
+            queued, total = session.scalars(free).one(), session.scalars(uploads).one()
             return QueueProgress(
                 queued=queued,
+                processing=total - queued,
                 held=held,
                 oldest_queued_at=_oldest(session, moment),
                 last_minute=_ended(session, moment - timedelta(minutes=1)),
@@ -70,8 +73,13 @@ def _held(session: Session, moment: datetime) -> dict[str, int]:
 
 
 def _oldest(session: Session, moment: datetime) -> datetime | None:
+    return session.scalars(select(func.min(JobRow.queued_at)).where(_free(moment))).one()
+
+
+def _free(moment: datetime) -> ColumnElement[bool]:
+    """Return which uploads wait; shapes that are described anew are told of by themselves."""
     free = JobRow.lease_until.is_(None) | (JobRow.lease_until < moment)
-    return session.scalars(select(func.min(JobRow.queued_at)).where(free)).one()
+    return free & JobRow.fingerprint.is_(None)
 
 
 def _ended(session: Session, since: datetime) -> int:

@@ -2,15 +2,16 @@
 
 from collections.abc import Callable
 from datetime import datetime, timedelta
-from uuid import uuid4
 
 from sqlalchemy import ColumnElement, Engine, and_, func, or_, select, update
 from sqlalchemy.orm import Session
 
+from index.claiming import find_oldest, job_of, take_oldest
 from index.database import reading, writing
 from index.deliveries import announce
 from index.errors import LeaseLost
 from index.jobs import MAX_ATTEMPTS, Job, end_row, held_row
+from index.renewed import keep_failure
 from index.revisions import lock_state, now, touch
 from index.rows import shape_row
 from index.shapes import Status
@@ -34,23 +35,32 @@ class Queue:
         self._engine = engine
         self._clock = clock
 
-    def claim(self, worker: str, lease_seconds: float) -> Job | None:
+    def claim(self, worker: str, lease_seconds: float, fingerprint: str | None = None) -> Job | None:
         """Take the oldest job that nobody holds, or whose lease ran out; None where there is none.
 
-        Its shape becomes `processing` in the same transaction. A job whose attempts are used up is
-        not taken: its shape becomes `failed` with the code ``gave_up``.
+        The shape of an upload becomes `processing` in the same transaction. A job whose attempts are used
+        up is not taken: its shape becomes `failed` with the code ``gave_up``. Shapes to be described anew
+        come after all uploads; they stay `ready`, also where that fails.
+
+        Parameters
+        ----------
+        fingerprint : str, optional
+            Of the parameters that this worker describes with; shapes are described anew only for these.
         """
         moment = self._clock()
-        if not self._waits(moment):
-            return None  # asking again and again must not lock others out
-        with writing(self._engine) as session:
-            lock_state(session)
-            _give_up_exhausted(session, moment)
-            row = _claim_one(session, moment, worker, moment + timedelta(seconds=lease_seconds))
-            if row is None:
-                return None
-            _set_status(session, row.shape_id, Status.PROCESSING)
-            return _job_of(row)
+        # asking again and again must not lock others out, as SQLite's writers do from their start
+        if self._engine.dialect.name == "sqlite" and not self._waits(moment, fingerprint):
+            return None
+        while True:
+            with writing(self._engine) as session:
+                oldest = find_oldest(session, moment, fingerprint)
+                if oldest is None:
+                    return None
+                if oldest.attempts < MAX_ATTEMPTS:
+                    until = moment + timedelta(seconds=lease_seconds)
+                    return take_oldest(session, oldest, moment, worker, until)
+                lock_state(session)
+                _give_up_exhausted(session, moment)
 
     def heartbeat(self, job: Job, lease_seconds: float) -> Job:
         """Lengthen the lease from now on; LeaseLost where the job is no longer this worker's."""
@@ -64,7 +74,7 @@ class Queue:
             row = session.execute(statement).scalar_one_or_none()
             if row is None:
                 raise LeaseLost(f"job {job.id} is no longer held by {job.worker}")
-            return _job_of(row)
+            return job_of(row)
 
     def give_back(self, job: Job) -> None:
         """Let others take the job at once; this claim does not count as an attempt."""
@@ -73,57 +83,40 @@ class Queue:
             row = held_row(session, job)
             row.attempts -= 1
             row.lease_until = row.claimed_at = row.worker = row.token = None
-            _set_status(session, row.shape_id, Status.QUEUED)
+            if row.fingerprint is None:
+                _set_status(session, row.shape_id, Status.QUEUED)
 
     def depth(self) -> int:
-        """Return how many jobs wait for a worker."""
+        """Return how many uploads wait for a worker."""
         with reading(self._engine) as session:
-            query = select(func.count()).select_from(JobRow).where(_free(self._clock()))
+            query = select(func.count()).select_from(JobRow).where(_free(self._clock()), _for(None))
             return session.scalars(query).one()
 
-    def _waits(self, moment: datetime) -> bool:
+    def _waits(self, moment: datetime, fingerprint: str | None) -> bool:
         with reading(self._engine) as session:
-            return session.scalars(select(JobRow.id).where(_free(moment)).limit(1)).first() is not None
+            return find_oldest(session, moment, fingerprint) is not None
 
 
 def _free(moment: datetime) -> ColumnElement[bool]:
     return or_(JobRow.lease_until.is_(None), JobRow.lease_until < moment)
 
 
-def _claim_one(session: Session, moment: datetime, worker: str, lease_until: datetime) -> JobRow | None:
-    # One statement finds and takes: two workers that first looked and then took would double jobs.
-    oldest = (
-        select(JobRow.id)
-        .where(_free(moment))
-        .order_by(JobRow.id)
-        .limit(1)
-        .with_for_update(skip_locked=True)  # SQLite has one writer and leaves this out
-        .scalar_subquery()
-    )
-    statement = (
-        update(JobRow)
-        .where(JobRow.id == oldest)
-        .values(
-            worker=worker,
-            token=uuid4().hex,
-            claimed_at=moment,
-            lease_until=lease_until,
-            attempts=JobRow.attempts + 1,
-        )
-        .returning(JobRow)
-        .execution_options(synchronize_session=False)
-    )
-    return session.execute(statement).scalar_one_or_none()
+def _for(fingerprint: str | None) -> ColumnElement[bool]:
+    upload = JobRow.fingerprint.is_(None)
+    return upload if fingerprint is None else or_(upload, JobRow.fingerprint == fingerprint)
 
 
 def _give_up_exhausted(session: Session, moment: datetime) -> None:
     exhausted = and_(_free(moment), JobRow.attempts >= MAX_ATTEMPTS)
     for row in session.scalars(select(JobRow).where(exhausted)).all():
-        shape = shape_row(session, row.shape_id)
-        shape.status, shape.error_code = Status.FAILED, "gave_up"
-        shape.error_detail = f"{row.attempts} attempts ended without a result"
-        touch(session, shape)
-        announce(session, shape.id, Status.FAILED, shape.updated_at)
+        detail = f"{row.attempts} attempts ended without a result"
+        if row.fingerprint is None:
+            shape = shape_row(session, row.shape_id)
+            shape.status, shape.error_code, shape.error_detail = Status.FAILED, "gave_up", detail
+            touch(session, shape)
+            announce(session, shape.id, Status.FAILED, shape.updated_at)
+        else:
+            keep_failure(session, row.shape_id, row.fingerprint, "gave_up", detail)
         end_row(session, row, "gave_up", moment)
 
 
@@ -131,17 +124,3 @@ def _set_status(session: Session, shape_id: str, status: Status) -> None:
     row = shape_row(session, shape_id)
     row.status = status
     touch(session, row)
-
-
-def _job_of(row: JobRow) -> Job:
-    if row.lease_until is None or row.worker is None or row.token is None:
-        raise LeaseLost(f"job {row.id} is held by nobody")
-    return Job(
-        id=row.id,
-        shape_id=row.shape_id,
-        queued_at=row.queued_at,
-        attempts=row.attempts,
-        lease_until=row.lease_until,
-        worker=row.worker,
-        token=row.token,
-    )

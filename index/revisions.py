@@ -47,13 +47,20 @@ class Revisions:
     def state(self) -> CatalogueState:
         """Return what an index must compare; one cheap SELECT."""
         with looking(self._engine) as cursor:
-            ((library, revision, epoch, vocabulary_id),) = self._state.rows(cursor, {})
-        return CatalogueState(library=library, revision=revision, epoch=epoch, vocabulary_id=vocabulary_id)
+            ((library, revision, epoch, vocabulary_id, next_id),) = self._state.rows(cursor, {})
+        return CatalogueState(
+            library=library,
+            revision=revision,
+            epoch=epoch,
+            vocabulary_id=vocabulary_id,
+            next_vocabulary_id=next_id,
+        )
 
     @cached_property
     def _state(self) -> Prepared:
         row = StateRow.__table__.c
-        return Prepared(select(row.library, row.revision, row.epoch, row.vocabulary_id), self._engine.dialect)
+        columns = (row.library, row.revision, row.epoch, row.vocabulary_id, row.next_vocabulary_id)
+        return Prepared(select(*columns), self._engine.dialect)
 
     def revision(self) -> int:
         """Return the number of the last change."""

@@ -34,6 +34,8 @@ def shape_of(row: ShapeRow) -> Shape:
         facts=row.facts,
         error_code=row.error_code,
         error_detail=row.error_detail,
+        fingerprint=row.fingerprint,
+        made_in=row.made_in,
     )
 
 

@@ -1,13 +1,14 @@
 """Searcher: ranked answers that are never older than the catalogue."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from pathlib import Path
 from threading import Lock
+from typing import Protocol
 
 import numpy.typing as npt
 
 from index.catalogue import Catalogue
-from index.files import FileStore
+from index.local_files import LocalFiles
 from index.method_index import MethodIndex
 from index.methods import Method, method, with_weights
 from index.ranking import Ranked
@@ -16,6 +17,35 @@ from index.watch import stage
 CATCH_UP, RANK = "catch_up", "rank"  # stages of a search
 
 _LEFT_BEHIND = 3600.0  # seconds after which a half-written index file is nobody's
+
+
+class View(Protocol):
+    """The vectors of one method, wherever they are: see `MethodIndex` and `index.pgvector.index`."""
+
+    escalations: int  # queries that took a second look to be proven, since the start
+
+    @property
+    def revision(self) -> int | None:
+        """Return the catalogue's revision that is shown; None where nothing is yet."""
+
+    def catch_up(self) -> None:
+        """Bring the view to what the catalogue is now."""
+
+    def proves(self, method: Method, limit: int) -> bool:
+        """Whether answers to such a question are proven to be complete."""
+
+    def rank(
+        self,
+        method: Method,
+        blocks: Mapping[str, npt.ArrayLike],
+        limit: int,
+        exclude: Collection[str],
+        vocabulary_id: str | None,
+    ) -> Ranked:
+        """Return the nearest shapes."""
+
+    def save(self) -> None:
+        """Keep the view for the next run."""
 
 
 class Searcher:
@@ -29,13 +59,18 @@ class Searcher:
         What is searched.
     folder : Path
         Where indexes are kept between runs. Only a cache: it may be emptied at any time.
+    make : callable, optional
+        Makes a method's view; otherwise it is a `MethodIndex`, in memory.
     """
 
-    def __init__(self, catalogue: Catalogue, folder: Path) -> None:
+    def __init__(
+        self, catalogue: Catalogue, folder: Path, make: Callable[[Method], View] | None = None
+    ) -> None:
         self._catalogue = catalogue
-        self._store = FileStore(folder)
+        self._store = LocalFiles(folder)
         self._store.sweep(_LEFT_BEHIND)
-        self._indexes: dict[str, MethodIndex] = {}
+        self._make = make or self._in_memory
+        self._indexes: dict[str, View] = {}
         self._opening = Lock()
 
     def search(
@@ -50,8 +85,8 @@ class Searcher:
     ) -> Ranked:
         """Return the nearest shapes as (id, distance), nearest first, equal distances by id.
 
-        Exactly what comparing the query with every ready shape in double precision would give. A
-        shape that lacks one of the method's blocks is left out.
+        Exactly what comparing the query with every ready shape in double precision would give, unless
+        `proves` says otherwise. A shape that lacks one of the method's blocks is left out.
 
         Parameters
         ----------
@@ -99,6 +134,21 @@ class Searcher:
         shown = {name: each.revision for name, each in loaded.items()}
         return {name: revision for name, revision in shown.items() if revision is not None}
 
+    def proves(self, method_name: str, limit: int, weights: Mapping[str, float] | None = None) -> bool:
+        """Whether no shape can be missing from the answer to such a question.
+
+        Raises
+        ------
+        UnknownMethod, BadWeights
+        """
+        base = method(method_name)
+        return self._index_of(base).proves(with_weights(base, weights or {}), limit)
+
+    def escalations(self) -> dict[str, int]:
+        """Return, by method, how many queries took a second look to be proven, since the start."""
+        with self._opening:
+            return {name: index.escalations for name, index in self._indexes.items()}
+
     def save(self) -> None:
         """Keep every index that is loaded for the next run."""
         with self._opening:
@@ -106,12 +156,25 @@ class Searcher:
         for each in loaded:
             each.save()
 
+    def forget(self) -> None:
+        """Let go of every index that is loaded."""
+        with self._opening:
+            self._indexes.clear()
+
+    @property
+    def loaded(self) -> bool:
+        """Whether any index is in memory."""
+        return bool(self._indexes)
+
     def close(self) -> None:
         """Save, as the last thing."""
         self.save()
 
-    def _index_of(self, base: Method) -> MethodIndex:
+    def _index_of(self, base: Method) -> View:
         with self._opening:
             if base.name not in self._indexes:
-                self._indexes[base.name] = MethodIndex(base, self._catalogue, self._store)
+                self._indexes[base.name] = self._make(base)
             return self._indexes[base.name]
+
+    def _in_memory(self, base: Method) -> View:
+        return MethodIndex(base, self._catalogue, self._store)

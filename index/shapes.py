@@ -43,6 +43,8 @@ class Shape:
     facts: Mapping[str, Any] | None  # what the worker found out about the mesh; None until ready
     error_code: str | None  # why it failed, stable
     error_detail: str | None  # why it failed, in words
+    fingerprint: str | None = None  # of the parameters that described it; None until ready
+    made_in: str | None = None  # folder of the files that were made of it; None: none of its own
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,3 +72,4 @@ class CatalogueState:
     revision: int  # goes up with every change
     epoch: int  # goes up when every index must be built anew
     vocabulary_id: str | None  # the active vocabulary; None until the first one
+    next_vocabulary_id: str | None = None  # active once all shapes are described anew; None: nothing changes

@@ -3,6 +3,7 @@
 A database checks types and references. What is left would be noticed later, by every search.
 """
 
+import re
 import struct
 import zlib
 
@@ -17,6 +18,7 @@ from index.vocabulary import Vocabulary
 
 _LONGEST = 1 << 20  # numbers in a block; the longest that is made has a few thousand
 _AT_ONCE = 500  # rows
+_FOLDER = re.compile(r"[0-9a-f]{0,16}")  # a fingerprint, or none
 
 
 def check_sound(session: Session) -> None:
@@ -44,7 +46,7 @@ def _check_state(session: Session) -> None:
 
 
 def _check_shapes(session: Session) -> None:
-    columns = (ShapeRow.id, ShapeRow.status, ShapeRow.user_metadata, ShapeRow.facts)
+    columns = (ShapeRow.id, ShapeRow.status, ShapeRow.user_metadata, ShapeRow.facts, ShapeRow.made_in)
     known = set(Status)
     with session.execute(select(*columns), execution_options={"yield_per": _AT_ONCE}) as rows:
         for row in rows:
@@ -52,6 +54,8 @@ def _check_shapes(session: Session) -> None:
                 raise DamagedExport(f"the shape {row.id!r:.50} has the unknown state {row.status!r:.50}")
             if not isinstance(row.user_metadata, dict) or not isinstance(row.facts, dict | None):
                 raise DamagedExport(f"metadata and facts of the shape {row.id!r:.50} must be JSON objects")
+            if not _FOLDER.fullmatch(row.made_in or ""):
+                raise DamagedExport(f"the files made of the shape {row.id!r:.50} are in no folder of ours")
 
 
 def _check_vocabularies(session: Session) -> None:
@@ -65,7 +69,7 @@ def _check_vocabularies(session: Session) -> None:
 def _check_blocks(session: Session) -> None:
     plain, words = PlainBlockRow, QuantisedBlockRow
     queries = (
-        select(plain.shape_id, plain.name, plain.data, plain.name.label("kind")),
+        select(plain.shape_id, plain.name, plain.data, plain.fingerprint.label("kind")),
         select(words.shape_id, words.name, words.data, words.vocabulary_id.label("kind")),
     )
     lengths: dict[tuple[str, str], int] = {}

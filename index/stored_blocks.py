@@ -2,7 +2,7 @@
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 
-from sqlalchemy import Engine, Select, delete, insert, select
+from sqlalchemy import Engine, ScalarSelect, Select, delete, insert, select
 from sqlalchemy.orm import Session
 
 from index.arrays import SingleArray
@@ -11,7 +11,7 @@ from index.database import reading
 from index.errors import FingerprintMismatch, NotReady
 from index.rows import shape_row
 from index.shapes import Status
-from index.tables import PlainBlockRow, QuantisedBlockRow, ShapeRow
+from index.tables import PlainBlockRow, QuantisedBlockRow, ShapeRow, VocabularyRow
 
 _AT_ONCE = 500  # shapes in one statement
 
@@ -72,15 +72,24 @@ class StoredBlocks:
             return {row.id: row.revision for row in session.execute(query)}
 
 
-def write_plain(session: Session, shape_id: str, blocks: Mapping[str, SingleArray]) -> None:
-    """Replace a shape's blocks that need no vocabulary."""
-    table = PlainBlockRow
-    session.execute(delete(table).where(table.shape_id == shape_id))
+def write_plain(session: Session, shape_id: str, fingerprint: str, blocks: Mapping[str, SingleArray]) -> None:
+    """Replace a shape's blocks that need no vocabulary, of those parameters."""
+    table, key = PlainBlockRow, {"shape_id": shape_id, "fingerprint": fingerprint}
+    ours = table.fingerprint == fingerprint
+    session.execute(delete(table).where(ours, table.shape_id == shape_id))
     for name, block in blocks.items():
-        _refuse_other_length(session, select(table.data).where(table.name == name), name, block)
-        session.execute(
-            insert(table), {"shape_id": shape_id, "name": name, "data": encode_block(name, block)}
-        )
+        _refuse_other_length(session, select(table.data).where(ours, table.name == name), name, block)
+        session.execute(insert(table), {**key, "name": name, "data": encode_block(name, block)})
+
+
+def delete_blocks(session: Session, shape_id: str, but_fingerprints: Collection[str] = ()) -> None:
+    """Delete a shape's blocks, in the words of every vocabulary, but those of some parameters."""
+    plain, words = PlainBlockRow, QuantisedBlockRow
+    kept = select(VocabularyRow.id).where(VocabularyRow.fingerprint.in_(but_fingerprints))
+    session.execute(
+        delete(plain).where(plain.shape_id == shape_id, plain.fingerprint.not_in(but_fingerprints))
+    )
+    session.execute(delete(words).where(words.shape_id == shape_id, words.vocabulary_id.not_in(kept)))
 
 
 def write_quantised(
@@ -104,14 +113,24 @@ def _refuse_other_length(session: Session, query: Select[bytes], name: str, bloc
         )
 
 
+def _fingerprint_of(vocabulary_id: str) -> ScalarSelect[str]:
+    # Blocks of other parameters may lie beside these while shapes are described anew.
+    query = select(VocabularyRow.fingerprint).where(VocabularyRow.id == vocabulary_id)
+    return query.scalar_subquery()
+
+
 def _read(
     session: Session, shape_ids: Sequence[str], vocabulary_id: str | None, names: Collection[str] | None
 ) -> dict[str, Blocks]:
     found: dict[str, Blocks] = {shape_id: {} for shape_id in shape_ids}
     plain, words = PlainBlockRow, QuantisedBlockRow
-    queries = [
-        (select(plain.shape_id, plain.name, plain.data).where(plain.shape_id.in_(shape_ids)), plain.name)
-    ]
+    free = select(plain.shape_id, plain.name, plain.data).where(plain.shape_id.in_(shape_ids))
+    if vocabulary_id is None:
+        own = free.join(ShapeRow, ShapeRow.id == plain.shape_id)
+        free = own.where(plain.fingerprint == ShapeRow.fingerprint)
+    else:
+        free = free.where(plain.fingerprint == _fingerprint_of(vocabulary_id))
+    queries = [(free, plain.name)]
     if vocabulary_id is not None:
         ours = (words.vocabulary_id == vocabulary_id, words.shape_id.in_(shape_ids))
         queries.append((select(words.shape_id, words.name, words.data).where(*ours), words.name))

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 import numpy.typing as npt
 from sqlalchemy import ColumnElement, Engine, Select, delete, exists, select
+from sqlalchemy.orm import Session
 
 from index.database import reading, writing
 from index.descriptions import check_fingerprint, checked_quantised, known_vocabulary
@@ -32,15 +33,12 @@ class Vocabularies:
         """Keep a vocabulary, not yet active; a known one is left as it is."""
         with writing(self._engine) as session:
             lock_state(session)
-            if session.get(VocabularyRow, vocabulary.id) is None:
-                session.add(
-                    VocabularyRow(
-                        id=vocabulary.id,
-                        fingerprint=vocabulary.fingerprint,
-                        data=vocabulary.to_bytes(),
-                        created_at=now(),
-                    )
-                )
+            add_row(session, vocabulary)
+
+    def vocabulary(self, vocabulary_id: str) -> Vocabulary:
+        """Return a vocabulary, active or not; UnknownVocabulary where there is none."""
+        with reading(self._engine) as session:
+            return Vocabulary.from_bytes(known_vocabulary(session, vocabulary_id).data)
 
     def missing_from(self, vocabulary_id: str, limit: int) -> list[str]:
         """Return up to `limit` ids of ready shapes that have no blocks in these words yet."""
@@ -76,7 +74,8 @@ class Vocabularies:
         -------
         bool
             False, and nothing is changed, while a ready shape lacks its blocks. True afterwards:
-            every index is built anew, and blocks in the words of other vocabularies are gone.
+            every index is built anew, and blocks in the words of other vocabularies are gone, but those
+            of the one to come where shapes are described anew.
 
         Raises
         ------
@@ -95,8 +94,22 @@ class Vocabularies:
             state.vocabulary_id = vocabulary_id
             state.epoch += 1
             next_revision(session)
-            session.execute(delete(QuantisedBlockRow).where(QuantisedBlockRow.vocabulary_id != vocabulary_id))
+            kept = {vocabulary_id, state.next_vocabulary_id or vocabulary_id}
+            session.execute(delete(QuantisedBlockRow).where(QuantisedBlockRow.vocabulary_id.not_in(kept)))
             return True
+
+
+def add_row(session: Session, vocabulary: Vocabulary) -> None:
+    """Keep a vocabulary; a known one is left as it is."""
+    if session.get(VocabularyRow, vocabulary.id) is None:
+        session.add(
+            VocabularyRow(
+                id=vocabulary.id,
+                fingerprint=vocabulary.fingerprint,
+                data=vocabulary.to_bytes(),
+                created_at=now(),
+            )
+        )
 
 
 def _missing(vocabulary_id: str) -> Select[str]:

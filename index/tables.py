@@ -63,6 +63,9 @@ class StateRow(Base):
     revision: Mapped[int]  # of the last change
     epoch: Mapped[int]  # raised when every index must be built anew
     vocabulary_id: Mapped[str | None] = mapped_column(ForeignKey("vocabularies.id"))  # the active one
+    next_vocabulary_id: Mapped[str | None] = mapped_column(  # active when all is described anew; see renewals
+        ForeignKey("vocabularies.id")
+    )
 
 
 class ShapeRow(Base):
@@ -83,6 +86,7 @@ class ShapeRow(Base):
     allow_untextured: Mapped[bool]
     facts: Mapped[dict[str, Any] | None]
     fingerprint: Mapped[str | None]  # of the parameters that made its blocks
+    made_in: Mapped[str | None]  # folder of the files made of it; None: none of its own
     error_code: Mapped[str | None]
     error_detail: Mapped[str | None]
     files: Mapped[list["FileRow"]] = relationship(
@@ -127,6 +131,7 @@ class JobRow(Base):
     token: Mapped[str | None]  # random for each claim: tells the holder from an earlier one
     queued_at: Mapped[datetime | None]  # None where an earlier version queued it
     claimed_at: Mapped[datetime | None]  # None while nobody has it
+    fingerprint: Mapped[str | None]  # of the parameters to describe a ready shape anew with; None: an upload
 
 
 class FinishedJobRow(Base):
@@ -158,6 +163,7 @@ class PlainBlockRow(Base):
     __tablename__ = "plain_blocks"
 
     shape_id: Mapped[str] = mapped_column(ForeignKey("shapes.id", ondelete="CASCADE"), primary_key=True)
+    fingerprint: Mapped[str] = mapped_column(primary_key=True, index=True)  # of the parameters that made it
     name: Mapped[str] = mapped_column(primary_key=True)
     data: Mapped[bytes]  # see index.blocks
 
@@ -171,6 +177,18 @@ class QuantisedBlockRow(Base):
     vocabulary_id: Mapped[str] = mapped_column(ForeignKey("vocabularies.id"), primary_key=True)
     name: Mapped[str] = mapped_column(primary_key=True)
     data: Mapped[bytes]
+
+
+class RenewalRow(Base):
+    """What came of describing a ready shape anew; it answers with its earlier description until all are."""
+
+    __tablename__ = "renewals"
+
+    shape_id: Mapped[str] = mapped_column(ForeignKey("shapes.id", ondelete="CASCADE"), primary_key=True)
+    fingerprint: Mapped[str] = mapped_column(primary_key=True, index=True)
+    facts: Mapped[dict[str, Any] | None]  # None where it failed
+    error_code: Mapped[str | None]
+    error_detail: Mapped[str | None]
 
 
 class TombstoneRow(Base):

@@ -44,8 +44,8 @@ from service.http.traces import TraceRequests
 from service.http.turnstile import Turnstile
 from service.http.unexpected import AnswerUnexpected
 from service.http.upload_rate import UploadRate
-from service.jobs.child import ChildLimits
 from service.jobs.describing import Describe, describe_files
+from service.jobs.executors import child_limits, start_computing
 from service.jobs.pool import ProcessPerJob
 from service.jobs.workers import Worker, process_name
 from service.key_ring import KeyRing
@@ -130,15 +130,6 @@ def _watch_requests(app: FastAPI, settings: Settings, spans: Spans) -> None:
     if type(spans) is not Spans:
         app.add_middleware(TraceRequests, spans=spans)
     app.add_middleware(NameRequests)
-
-
-def child_limits(settings: Settings) -> ChildLimits:
-    """Return what one job may use."""
-    return ChildLimits(
-        memory_bytes=settings.job_memory_bytes,
-        cpu_seconds=settings.job_cpu_seconds,
-        wall_seconds=settings.job_seconds,
-    )
 
 
 def _add_routes(app: FastAPI) -> None:
@@ -234,11 +225,11 @@ def _embedded_worker(
     if slots == 0:
         yield EmbeddedWorker()
         return
-    pool = ProcessPerJob(slots=slots, limits=child_limits(settings))
+    computing = start_computing(settings, slots)
     worker = Worker(
         library,
-        pool,
-        slots=slots,
+        computing.executor,
+        slots=computing.slots,
         name=process_name(),
         describe=describe,
         observe=metrics.observe_job,
@@ -252,7 +243,7 @@ def _embedded_worker(
     finally:
         worker.stop(settings.finish_seconds)
         thread.join()  # it gives its jobs back first, while the pool still takes what it submits
-        pool.shutdown(cancel_futures=True)
+        computing.executor.shutdown(cancel_futures=True)
 
 
 def _retire(worker: Worker, settings: Settings) -> None:

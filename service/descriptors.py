@@ -7,7 +7,7 @@ from index.errors import NotReady
 from index.shapes import Status
 from service.library import Library
 from service.storage import load_signatures
-from service.vocabularies import active_vocabulary
+from service.vocabularies import vocabulary_for
 from worker.arrays import SingleArray
 
 EIGENVALUES = "eigenvalues-"  # names of signatures that hold a spectrum, before η
@@ -33,8 +33,8 @@ def shape_numbers(library: Library, shape_id: str) -> Numbers:
     shape = library.catalogue.get(shape_id)
     if shape.status != Status.READY:
         raise NotReady(f"the shape is {shape.status}; only a ready one has numbers")
-    vocabulary = active_vocabulary(library)
-    signatures = load_signatures(library.files, shape_id)
+    vocabulary = vocabulary_for(library, str(shape.fingerprint))
+    signatures = load_signatures(library.files, shape_id, shape.made_in)
     return Numbers(
         vocabulary_id=vocabulary.id,
         fingerprint=vocabulary.fingerprint,

@@ -8,12 +8,12 @@ from service.library import Library
 from service.quantisation import quantise
 from service.remembering import Remembered, remembered_file
 from service.storage import SIGNATURES
-from service.vocabularies import active_vocabulary
+from service.vocabularies import own_vocabulary
 from worker.arrays import SingleArray
 
 
 def in_active_words(library: Library, query: Remembered) -> tuple[str, dict[str, SingleArray]]:
-    """Return the active vocabulary's id and the query's blocks in its words.
+    """Return the id of this version's vocabulary and the query's blocks in its words.
 
     They are kept in those of the vocabulary that was active when the query came; where another is active now,
     they are made anew from its signatures.
@@ -23,7 +23,7 @@ def in_active_words(library: Library, query: Remembered) -> tuple[str, dict[str,
     QueryNotFound
         It was removed in this moment.
     """
-    vocabulary = active_vocabulary(library)
+    vocabulary = own_vocabulary(library)
     if vocabulary.id == query.vocabulary_id:
         return vocabulary.id, dict(query.blocks)
     return vocabulary.id, {**query.blocks, **quantise(remembered_signatures(library, query.id), vocabulary)}

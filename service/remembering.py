@@ -6,6 +6,7 @@ import logging
 import re
 import uuid
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import asdict, dataclass
 from datetime import datetime, timedelta
 from typing import Any
@@ -13,7 +14,7 @@ from zipfile import BadZipFile
 
 import numpy as np
 
-from index.errors import FileMissing, StorageFull
+from index.errors import FileMissing, StorageFull, StorageUnreachable
 from index.files import FileStore
 from index.revisions import now
 from service.intake.submissions import Submission
@@ -80,7 +81,7 @@ def remember(
     Returns
     -------
     str or None
-        None where the disk is full or refuses: an answer does not depend on it.
+        None where the disk is full or refuses, or the storage is away: an answer does not depend on it.
     """
     query_id = uuid.uuid4().hex
     card = {
@@ -103,9 +104,10 @@ def remember(
             (_CARD, json.dumps(card).encode()),
         ):
             _put(library.files, query_key(query_id, name), content)
-    except (StorageFull, OSError):
+    except (StorageFull, StorageUnreachable, OSError):
         log.warning("a query could not be remembered", exc_info=True)
-        library.files.delete_all(f"{FOLDER}/{query_id}")
+        with suppress(StorageUnreachable):  # what is left is old in an hour
+            library.files.delete_all(f"{FOLDER}/{query_id}")
         return None
     return query_id
 
@@ -179,12 +181,12 @@ def _make_room(files: FileStore) -> None:
 def _moments(files: FileStore) -> dict[str, float]:
     """Return when the newest file of each query was written."""
     found: dict[str, float] = {}
-    for key in files.keys(FOLDER):
+    for key, moment in files.changes(FOLDER):
         query_id = key.split("/")[1]
-        found[query_id] = max(found.get(query_id, 0.0), files.changed(key))
+        found[query_id] = max(found.get(query_id, 0.0), moment)
     return found
 
 
 def _put(files: FileStore, key: str, content: bytes) -> None:
     # not flushed: nobody was promised that a query survives a power cut
-    files.write(key, lambda file: file.write(content), flushed=False)
+    files.put(key, content, flushed=False)

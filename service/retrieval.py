@@ -1,20 +1,23 @@
 """Use cases, free of HTTP: take a mesh in, change it, remove it, and find what is similar."""
 
+import logging
 import time
 import uuid
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from concurrent.futures import Executor
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from index.errors import StorageUnreachable
+from index.renewals import RenewalProgress
 from index.shapes import Shape, Status, StoredFile
 from index.watch import stage
-from service.asking import Question, check_question, rank_description, rank_near, rank_query
+from service.asking import Found, Question, check_question, rank_description, rank_near, rank_query
 from service.intake.submissions import Submission
 from service.jobs.describing import Describe, describe_files
 from service.library import Library
-from service.refining import Ranked
 from service.relations.relating import relate, relate_stored
 from service.relations.relation import Related
 from service.relations.sides import described_side, remembered_side
@@ -23,6 +26,8 @@ from service.remembering import recall, remember
 from service.storage import upload_key
 from worker.describe import MeshFacts
 from worker.reading.upload import inspect_upload
+
+log = logging.getLogger(__name__)
 
 DESCRIBE, RELATIONS = "describe", "relations"  # stages of a query before and after those of `service.asking`
 
@@ -54,6 +59,8 @@ class Answer:
     milliseconds: float  # from the question to here
     hits: tuple[Hit, ...]  # nearest first
     query: Asked | None = None  # a mesh that is no shape of the library
+    partly: RenewalProgress | None = None  # while all are described anew: with how many it was compared
+    exact: bool = True  # whether no shape can be missing
 
 
 def accept_upload(library: Library, submission: Submission) -> tuple[Shape, bool]:
@@ -89,12 +96,14 @@ def accept_upload(library: Library, submission: Submission) -> tuple[Shape, bool
             allow_untextured=submission.allow_untextured,
         )
     except BaseException:
-        library.files.delete_all(f"uploads/{upload_id}")
+        with _left_to_sweeper():
+            library.files.delete_all(f"uploads/{upload_id}")
         raise
-    if not new:  # somebody sent the same at the same time
-        library.files.delete_all(f"uploads/{upload_id}")
-    elif known is not None:  # it had failed, and now has new files
-        _delete_files(library, known.files)
+    with _left_to_sweeper():
+        if not new:  # somebody sent the same at the same time
+            library.files.delete_all(f"uploads/{upload_id}")
+        elif known is not None:  # it had failed, and now has new files
+            _delete_files(library, known.files)
     return shape, new
 
 
@@ -110,7 +119,7 @@ def find_similar(library: Library, shape_id: str, question: Question) -> Answer:
     asked = found.registered if question.relations else ()
     with stage(RELATIONS, question.method):
         related = relate_stored(library, shape_id, asked, found.vocabulary_id)
-    return _answer(library, question, found.ranked, related, start)
+    return _answer(library, question, found, related, start)
 
 
 def search_upload(
@@ -140,7 +149,7 @@ def search_upload(
     inspect_upload(submission.upload(), library.limits)
     with stage(DESCRIBE, question.method):
         described = executor.submit(
-            describe, submission.paths, submission.allow_untextured, library.parameters, library.limits
+            describe, submission.contents, submission.allow_untextured, library.parameters, library.limits
         ).result()
     found = rank_description(library, described, question)
     query = described_side(described, found.blocks, ((file.name, file.sha256) for file in submission.files))
@@ -151,7 +160,7 @@ def search_upload(
         remember(library, submission, described, found.blocks, found.vocabulary_id) if remembered else None
     )
     asked_about = Asked(id=query_id, name=submission.display_name(), facts=described.facts)
-    return _answer(library, question, found.ranked, related, start, asked_about)
+    return _answer(library, question, found, related, start, asked_about)
 
 
 def find_remembered(library: Library, query_id: str, question: Question) -> Answer:
@@ -171,7 +180,7 @@ def find_remembered(library: Library, query_id: str, question: Question) -> Answ
             side = remembered_side(library, query, found.blocks)
             related = relate(library, side, found.registered, found.vocabulary_id)
     asked = Asked(id=query.id, name=query.name, facts=query.facts)
-    return _answer(library, question, found.ranked, related, start, asked)
+    return _answer(library, question, found, related, start, asked)
 
 
 def change_shape(
@@ -184,8 +193,9 @@ def change_shape(
 def remove_shape(library: Library, shape_id: str) -> None:
     """Forget a shape, then delete its files; `service.jobs.sweeping` ends what a crash leaves half done."""
     files = library.reserve.despite_full_disk(lambda: library.catalogue.remove(shape_id))
-    _delete_files(library, files)
-    library.files.delete_all(f"shapes/{shape_id}")
+    with _left_to_sweeper():
+        _delete_files(library, files)
+        library.files.delete_all(f"shapes/{shape_id}")
     library.reserve.fill()
 
 
@@ -200,6 +210,15 @@ def _store(library: Library, upload_id: str, submission: Submission) -> list[Sto
     return stored
 
 
+@contextmanager
+def _left_to_sweeper() -> Iterator[None]:
+    """Go on where files that nobody needs cannot be deleted now: what was promised does not depend on it."""
+    try:
+        yield
+    except StorageUnreachable as error:
+        log.warning("files are left to the sweeper: %s", error)
+
+
 def _delete_files(library: Library, files: Iterable[StoredFile]) -> None:
     for file in files:
         library.files.delete(file.key)
@@ -208,14 +227,14 @@ def _delete_files(library: Library, files: Iterable[StoredFile]) -> None:
 def _answer(
     library: Library,
     question: Question,
-    found: Ranked,
+    found: Found,
     related: Mapping[str, Related],
     start: float,
     query: Asked | None = None,
 ) -> Answer:
     """Join distances, relations and shapes; one that was removed in this moment drops out."""
-    shapes = library.catalogue.get_many([shape_id for shape_id, _ in found])
-    kept = [(shapes[shape_id], distance) for shape_id, distance in found if shape_id in shapes]
+    shapes = library.catalogue.get_many([shape_id for shape_id, _ in found.ranked])
+    kept = [(shapes[shape_id], distance) for shape_id, distance in found.ranked if shape_id in shapes]
     return Answer(
         method=question.method,
         milliseconds=1000 * (time.perf_counter() - start),
@@ -224,4 +243,6 @@ def _answer(
             for rank, (shape, distance) in enumerate(kept, start=1)
         ),
         query=query,
+        partly=library.catalogue.renewal() if found.partly else None,
+        exact=found.exact,
     )

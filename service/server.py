@@ -8,12 +8,12 @@ import time
 import uvicorn
 from fastapi import FastAPI
 
-from service.app import child_limits, create_app, telling_webhooks
+from service.app import create_app, telling_webhooks
 from service.draining import DrainingServer
 from service.file_limit import raise_file_limit
 from service.first_run import Report, show_samples
 from service.http.connections import BoundedConnection
-from service.jobs.pool import ProcessPerJob
+from service.jobs.executors import start_computing
 from service.jobs.workers import Worker, process_name
 from service.library import Library
 from service.listening import check_listening
@@ -106,11 +106,11 @@ def run_worker(
     start_logging(settings.log)
     library = Library.open(settings)
     metrics, spans = Metrics(), open_spans()
-    pool = ProcessPerJob(slots=workers, limits=child_limits(settings))
+    computing = start_computing(settings, workers)
     worker = Worker(
         library,
-        pool,
-        slots=workers,
+        computing.executor,
+        slots=computing.slots,
         name=process_name(),
         observe=metrics.observe_job,
         watch=JobsSeen(metrics, spans, lines=settings.log == "json"),
@@ -123,6 +123,6 @@ def run_worker(
     finally:
         worker.stop(settings.finish_seconds)
         thread.join()  # it gives its jobs back first, while the pool still takes what it submits
-        pool.shutdown(cancel_futures=True)
+        computing.executor.shutdown(cancel_futures=True)
         spans.close()
         library.close()

@@ -1,5 +1,6 @@
 """What an operator may change, read from arguments and from the environment (``FAIENCE_…``)."""
 
+from enum import StrEnum
 from ipaddress import ip_address
 from pathlib import Path
 from typing import Annotated, Literal
@@ -8,6 +9,15 @@ from pydantic import Field, SecretStr, field_validator
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 from index.key_secrets import digest_of
+from service.jobs.cluster_address import checked_address
+
+
+class IndexKind(StrEnum):
+    """Where the vectors of searches are."""
+
+    MEMORY = "memory"  # of each process
+    PGVECTOR = "pgvector"  # in the catalogue's PostgreSQL; answers are proven
+    PGVECTOR_HNSW = "pgvector-hnsw"  # there too, found by a graph; answers may lack a shape
 
 
 class Settings(BaseSettings):
@@ -17,6 +27,11 @@ class Settings(BaseSettings):
 
     data_dir: Path = Path("faience-data")  # everything that is kept
     database_url: str | None = None  # SQLite inside data_dir where none is given
+    storage_url: str | None = (
+        None  # of the files: s3://BUCKET/PREFIX or file:///FOLDER; inside data_dir without
+    )
+    presigned: bool = False  # files in a bucket are fetched there, at an address that is good for a while
+    index: IndexKind = IndexKind.MEMORY  # where searches find their vectors
     busy_seconds: float = Field(default=15, gt=0)  # that a change waits for another program's lock
     host: str = "127.0.0.1"
     port: int = Field(default=8000, ge=0, le=65535)
@@ -37,6 +52,7 @@ class Settings(BaseSettings):
     job_seconds: float = Field(default=600, gt=0)
     lease_seconds: float = Field(default=60, gt=0)  # after so long without a heartbeat a job is taken again
     poll_seconds: float = Field(default=0.5, gt=0)  # how often an idle worker looks for jobs
+    cluster: str | None = None  # tcp://HOST:PORT of a Dask scheduler that has the jobs computed
     search_slots: int = Field(default=2, ge=1)  # meshes of `search` described at the same time
     search_queue: int = Field(default=8, ge=0)  # others that may wait; more are told to come back
 
@@ -51,6 +67,11 @@ class Settings(BaseSettings):
         if isinstance(value, str):
             return tuple(key.strip() for key in value.split(",") if key.strip())
         return value
+
+    @field_validator("cluster")
+    @classmethod
+    def _check_cluster(cls, value: str | None) -> str | None:
+        return None if value is None else checked_address(value)
 
     @property
     def url(self) -> str:

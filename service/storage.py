@@ -6,13 +6,13 @@ from zipfile import ZipFile
 
 import numpy as np
 
-from index.errors import FileMissing
 from index.files import FileStore
 from worker.arrays import SingleArray
 
 THUMBNAIL = "thumbnail.png"
 PREVIEW = "preview.glb"
 SIGNATURES = "signatures.npz"
+MADE = (THUMBNAIL, PREVIEW, SIGNATURES)  # of every shape that is ready
 
 
 def upload_key(upload_id: str, number: int) -> str:
@@ -20,14 +20,22 @@ def upload_key(upload_id: str, number: int) -> str:
     return f"uploads/{upload_id}/{number}"
 
 
-def derived_key(shape_id: str, name: str) -> str:
-    """Return the key of something that was computed for a shape."""
-    return f"shapes/{shape_id}/{name}"
+def derived_key(shape_id: str, name: str, made_in: str | None = None) -> str:
+    """Return the key of something that was computed for a shape.
+
+    Parameters
+    ----------
+    made_in : str, optional
+        The folder of what was made of a shape that was described anew; see `index.shapes.Shape`.
+    """
+    return f"shapes/{shape_id}/{name}" if made_in is None else f"shapes/{shape_id}/{made_in}/{name}"
 
 
-def save_signatures(files: FileStore, shape_id: str, signatures: Mapping[str, SingleArray]) -> None:
+def save_signatures(
+    files: FileStore, shape_id: str, signatures: Mapping[str, SingleArray], made_in: str | None = None
+) -> None:
     """Keep the signatures of a shape, in single precision, for every vocabulary to come."""
-    files.put(derived_key(shape_id, SIGNATURES), saved_arrays(signatures))
+    files.put(derived_key(shape_id, SIGNATURES, made_in), saved_arrays(signatures))
 
 
 def saved_arrays(arrays: Mapping[str, SingleArray]) -> bytes:
@@ -38,19 +46,16 @@ def saved_arrays(arrays: Mapping[str, SingleArray]) -> bytes:
     return buffer.getvalue()
 
 
-def load_signatures(files: FileStore, shape_id: str) -> dict[str, SingleArray]:
+def load_signatures(files: FileStore, shape_id: str, made_in: str | None = None) -> dict[str, SingleArray]:
     """Return the signatures of a ready shape; FileMissing where there are none."""
-    data = files.get(derived_key(shape_id, SIGNATURES))
+    data = files.get(derived_key(shape_id, SIGNATURES, made_in))
     with np.load(io.BytesIO(data), allow_pickle=False) as archive:
         return {name: archive[name] for name in archive.files}
 
 
-def load_signature(files: FileStore, shape_id: str, name: str) -> SingleArray:
+def load_signature(files: FileStore, shape_id: str, name: str, made_in: str | None = None) -> SingleArray:
     """Return one signature of a ready shape, without reading the others; FileMissing where there are none."""
-    key = derived_key(shape_id, SIGNATURES)
-    try:
-        with ZipFile(files.path(key)) as archive, archive.open(f"{name}.npy") as member:
-            found: SingleArray = np.lib.format.read_array(member, allow_pickle=False)
-    except FileNotFoundError:
-        raise FileMissing(f"no file is kept under {key!r}") from None
+    key = derived_key(shape_id, SIGNATURES, made_in)
+    with files.open(key) as file, ZipFile(file) as archive, archive.open(f"{name}.npy") as member:
+        found: SingleArray = np.lib.format.read_array(member, allow_pickle=False)
     return found

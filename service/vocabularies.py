@@ -1,16 +1,18 @@
 """The active vocabulary, and how a library learns its own."""
 
+import contextlib
 from collections.abc import Callable, Iterator
 
-from index.errors import FileMissing, ShapeNotFound
+from index.errors import DescriptionsChanging, FileMissing, NewerDescriptions, ShapeNotFound
 from index.shapes import Status
 from index.vocabulary import Vocabulary
 from index.vocabulary import learn_vocabulary as learn
-from service.library import Library
+from service.library import NEWER, Library
 from service.quantisation import quantise
 from service.storage import load_signatures
 from worker.arrays import SingleArray
 
+REMEMBERED = 2  # vocabularies: the active and the next one
 BATCH = 100  # shapes between two questions to the catalogue
 NONE_ACTIVE = "no vocabulary is active; learn one with `faience learn-vocabulary`"
 Progress = Callable[[int, int], None]  # shapes done, shapes known so far
@@ -31,8 +33,66 @@ def known_vocabulary(vocabulary_id: str | None) -> str:
 
 def active_vocabulary(library: Library) -> Vocabulary:
     """Return the vocabulary that queries and records use now."""
-    known = library.vocabularies.get(library.catalogue.state().vocabulary_id or "")
-    return known or _read_active(library)
+    return _stored(library, known_vocabulary(library.catalogue.state().vocabulary_id))
+
+
+def vocabulary_for(library: Library, fingerprint: str) -> Vocabulary:
+    """Return the vocabulary of the parameters that something was described with: the active or the next one.
+
+    Raises
+    ------
+    NoVocabulary
+        There is none yet.
+    DescriptionsChanging
+        Shapes will be described with these parameters, but that has not begun.
+    NewerDescriptions
+        They were described with these once, and are not any more.
+    """
+    state = library.catalogue.state()
+    active = _stored(library, known_vocabulary(state.vocabulary_id))
+    if active.fingerprint == fingerprint:
+        return active
+    if state.next_vocabulary_id is not None:
+        upcoming = _stored(library, state.next_vocabulary_id)
+        if upcoming.fingerprint == fingerprint:
+            return upcoming
+    if library.catalogue.left_behind(fingerprint):
+        raise NewerDescriptions(NEWER)
+    raise DescriptionsChanging(
+        "all shapes are to be described anew for this version; that begins when a worker of it runs"
+    )
+
+
+def own_vocabulary(library: Library) -> Vocabulary:
+    """Return the vocabulary for what this program describes; as `vocabulary_for`."""
+    return vocabulary_for(library, library.parameters.fingerprint())
+
+
+def settled_vocabulary(library: Library) -> Vocabulary:
+    """Return the active vocabulary where it is this program's own.
+
+    Raises
+    ------
+    NoVocabulary, NewerDescriptions
+    DescriptionsChanging
+        The shapes answer with earlier descriptions, which this version cannot make or look into.
+    """
+    own, active = own_vocabulary(library), active_vocabulary(library)
+    if own.fingerprint != active.fingerprint:
+        raise DescriptionsChanging(
+            "all shapes are being described anew for this version; try again after that"
+        )
+    return active
+
+
+def check_not_behind(library: Library, vocabulary_id: str) -> None:
+    """Refuse to compare in words that came with a newer version; NewerDescriptions.
+
+    Words of an earlier version may be compared with each other, as that version did.
+    """
+    if _stored(library, vocabulary_id).fingerprint != library.parameters.fingerprint():
+        with contextlib.suppress(DescriptionsChanging):
+            own_vocabulary(library)
 
 
 def learn_vocabulary(library: Library, progress: Progress = lambda *_: None) -> Vocabulary:
@@ -50,7 +110,11 @@ def learn_vocabulary(library: Library, progress: Progress = lambda *_: None) -> 
     ------
     BadVocabulary
         Where the ready shapes are too few, or too alike.
+    DescriptionsChanging
+        They are being described anew.
     """
+    with contextlib.suppress(NoVocabulary):
+        settled_vocabulary(library)
     vocabulary = learn(_all_signatures(library), library.parameters.fingerprint())
     adopt_vocabulary(library, vocabulary, progress)
     return vocabulary
@@ -69,7 +133,8 @@ def adopt_vocabulary(library: Library, vocabulary: Vocabulary, progress: Progres
 
 def _quantise_shape(library: Library, vocabulary: Vocabulary, shape_id: str) -> None:
     try:
-        signatures = load_signatures(library.files, shape_id)
+        made_in = library.catalogue.get(shape_id).made_in
+        signatures = load_signatures(library.files, shape_id, made_in)
         library.catalogue.add_quantised(shape_id, vocabulary.id, quantise(signatures, vocabulary))
     except (FileMissing, ShapeNotFound):
         if shape_id in library.catalogue.get_many([shape_id]):
@@ -82,7 +147,7 @@ def _all_signatures(library: Library) -> Iterator[dict[str, SingleArray]]:
         page = library.catalogue.list(limit=BATCH, cursor=cursor, status=Status.READY)
         for shape in page.items:
             try:
-                yield load_signatures(library.files, shape.id)
+                yield load_signatures(library.files, shape.id, shape.made_in)
             except FileMissing:
                 continue  # removed while this goes on
         cursor = page.next_cursor
@@ -90,10 +155,11 @@ def _all_signatures(library: Library) -> Iterator[dict[str, SingleArray]]:
             return
 
 
-def _read_active(library: Library) -> Vocabulary:
-    vocabulary = library.catalogue.active_vocabulary()
-    if vocabulary is None:
-        raise NoVocabulary(NONE_ACTIVE)
-    library.vocabularies.clear()  # one at a time is asked for
-    library.vocabularies[vocabulary.id] = vocabulary
-    return vocabulary
+def _stored(library: Library, vocabulary_id: str) -> Vocabulary:
+    known = library.vocabularies.get(vocabulary_id)
+    if known is None:
+        known = library.catalogue.vocabulary(vocabulary_id)
+        if len(library.vocabularies) >= REMEMBERED:
+            library.vocabularies.clear()
+        library.vocabularies[vocabulary_id] = known
+    return known

@@ -90,7 +90,7 @@ def _unended(shapes: dict[str, Shape]) -> Iterator[str]:
 def _files_out_of_step(library: Library, shapes: dict[str, Shape]) -> Iterator[str]:
     needed = {file.key for shape in shapes.values() for file in shape.files}
     made = {
-        derived_key(shape.id, name)
+        derived_key(shape.id, name, shape.made_in)
         for shape in shapes.values()
         if shape.status == Status.READY
         for name in (THUMBNAIL, PREVIEW, SIGNATURES)

@@ -28,6 +28,15 @@ from worker.reading.upload import Upload, read_mesh
 Rows = dict[str, list[dict[str, Any]]]  # of each table
 Parts = dict[str, bytes]  # an archive's members, in their order
 
+# What came after the first schema.
+LATER_TABLES = ("dismissals", "tags", "renewals")
+LATER_COLUMNS = {
+    "shapes": ("made_in",),
+    "jobs": ("queued_at", "claimed_at", "fingerprint"),
+    "state": ("next_vocabulary_id",),
+    "plain_blocks": ("fingerprint",),
+}
+
 
 @contextmanager
 def opened(folder: Path) -> Iterator[Library]:
@@ -155,6 +164,23 @@ def forged(path: Path, change: Callable[[Parts], Parts | None]) -> Path:
     """Write an archive again with something changed, and with checksums that are right."""
     parts = parts_of(path)
     return write_parts(path.with_name("forged.tar"), with_sums(change(parts) or parts))
+
+
+def of_the_first_schema(parts: Parts) -> Parts:
+    """Return the parts as the first version would have written them."""
+    header = json.loads(parts["library.json"])
+    kept = {name: data for name, data in parts.items() if name not in map(_rows_member, LATER_TABLES)}
+    counts = {name: number for name, number in header["counts"].items() if name not in LATER_TABLES}
+    kept["library.json"] = json.dumps({**header, "schema": "0001", "counts": counts}).encode()
+    for table, columns in LATER_COLUMNS.items():
+        rows = map(json.loads, kept[_rows_member(table)].splitlines())
+        earlier = [{name: row[name] for name in row if name not in columns} for row in rows]
+        kept[_rows_member(table)] = b"".join(json.dumps(row).encode() + b"\n" for row in earlier)
+    return kept
+
+
+def _rows_member(table: str) -> str:
+    return f"tables/{table}.jsonl"
 
 
 def edited(data: bytes, line: int, /, **changes: Any) -> bytes:

@@ -11,7 +11,9 @@ from sqlalchemy import Engine
 from index.catalogue import Catalogue
 from index.database import make_engine
 from index.migrating import migrate
+from index.pgvector.opening import views
 from index.queue import Queue
+from index.searcher import Searcher
 from index.shapes import Shape, StoredFile
 from index.vocabulary import Vocabulary
 from tests.databases import DATABASES
@@ -52,6 +54,12 @@ def open_catalogue(folder: Path) -> Opened:
         catalogue.add_vocabulary(vocabulary)
         catalogue.activate(active)
     return Opened(engine=engine, catalogue=catalogue, queue=Queue(engine), vocabulary_id=active)
+
+
+def make_searcher(opened: Opened, folder: Path) -> Searcher:
+    """Return a searcher with its vectors where the tests of this module want them."""
+    make = views(opened.catalogue, opened.engine) if DATABASES.index == "pgvector" else None
+    return Searcher(opened.catalogue, folder, make)
 
 
 def add_queued(opened: Opened, shape_id: str, **metadata: object) -> Shape:

@@ -1,5 +1,6 @@
 """Where the shared meshes are, for the tests that use them."""
 
+import os
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -8,7 +9,8 @@ from hypothesis import settings
 from playwright.sync_api import Browser
 
 from tests.browsing import chromium_path, launched
-from tests.databases import DATABASES, KINDS, engines_let_go, postgresql
+from tests.databases import DATABASES, INDEXES, KINDS, engines_let_go, postgresql
+from tests.storages import KEPT, PLACES, STORAGES, object_storage
 
 settings.register_profile("shared machine", deadline=None)  # others work on it too: time proves nothing
 settings.load_profile("shared machine")
@@ -68,3 +70,48 @@ def database(request: pytest.FixtureRequest) -> Iterator[str]:
     DATABASES.kind = kind
     yield kind
     DATABASES.kind = "sqlite"
+
+
+@pytest.fixture(scope="session")
+def object_server() -> Iterator[str]:
+    """Start an S3 server once for all tests of a process that need it."""
+    with object_storage() as address:
+        os.environ["AWS_ENDPOINT_URL"] = address
+        yield address
+        del os.environ["AWS_ENDPOINT_URL"]
+
+
+@pytest.fixture(scope="module", params=STORAGES)
+def storage(request: pytest.FixtureRequest) -> Iterator[str]:
+    """Run the tests of a module twice, with files in folders and in a bucket."""
+    kind: str = request.param
+    if kind == "s3":
+        request.getfixturevalue("object_server")
+    PLACES.kind = kind
+    yield kind
+    PLACES.kind = "local"
+
+
+@pytest.fixture(scope="module", params=KEPT)
+def kept(request: pytest.FixtureRequest) -> Iterator[str]:
+    """Run the tests of a module with both databases, then with files in a bucket."""
+    kind: str = request.param
+    if kind == "postgresql":
+        DATABASES.server = request.getfixturevalue("database_server")
+        DATABASES.kind = kind
+    if kind == "s3":
+        request.getfixturevalue("object_server")
+        PLACES.kind = kind
+    yield kind
+    DATABASES.kind, PLACES.kind = "sqlite", "local"
+
+
+@pytest.fixture(scope="module", params=INDEXES)
+def indexed(request: pytest.FixtureRequest) -> Iterator[str]:
+    """Run the tests of a module with vectors in memory, on both databases, and in PostgreSQL."""
+    index, kind = str(request.param).split(", ")
+    if kind == "postgresql":
+        DATABASES.server = request.getfixturevalue("database_server")
+    DATABASES.kind, DATABASES.index = kind, index
+    yield index
+    DATABASES.kind, DATABASES.index = "sqlite", "memory"

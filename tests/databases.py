@@ -16,6 +16,7 @@ from index import database
 from index.postgresql import postgresql_engine
 
 KINDS = ("sqlite", "postgresql")
+INDEXES = ("memory, sqlite", "memory, postgresql", "pgvector, postgresql")  # where vectors and catalogue are
 _QUICK = ("fsync = off", "synchronous_commit = off", "full_page_writes = off", "max_connections = 400")
 
 
@@ -24,6 +25,7 @@ class Databases:
 
     def __init__(self) -> None:
         self.kind = "sqlite"  # until a test asks for the other
+        self.index = "memory"  # likewise
         self.server: str | None = None  # address of PostgreSQL, once it runs
 
     def url(self, folder: Path) -> str:
@@ -48,6 +50,10 @@ DATABASES = Databases()
 
 # For what only a file can show: its statements, a copy of it, another program's lock.
 only_on_sqlite = pytest.mark.parametrize("database", ["sqlite"], indirect=True)
+only_in_memory = pytest.mark.parametrize(
+    "indexed", INDEXES[:2], indirect=True
+)  # for what only a folder shows
+only_in_memory_on_sqlite = pytest.mark.parametrize("indexed", INDEXES[:1], indirect=True)
 
 
 @contextmanager

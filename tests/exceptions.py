@@ -17,7 +17,9 @@ from index.errors import (
     LeaseLost,
     LibraryNotEmpty,
     NewerFormat,
+    NoPgvector,
     UnknownDatabase,
+    UnknownStorage,
     UnknownVocabulary,
     WebhookNotFound,
 )
@@ -34,6 +36,8 @@ INSIDE = {
     WebhookNotFound,
     BadWebhook,
     UnknownDatabase,
+    UnknownStorage,
+    NoPgvector,
     *EXPORTS,
 }
 

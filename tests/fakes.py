@@ -4,12 +4,10 @@ import io
 import os
 import time
 from collections.abc import Mapping
-from pathlib import Path
 
 import numpy as np
 from PIL import Image
 
-from service.jobs.describing import FilesOnDisk
 from worker.arrays import FloatArray, SingleArray
 from worker.describe import Description, MeshFacts
 from worker.descriptors.landmarks import LADDER, pack
@@ -25,11 +23,11 @@ WORDS = ("hks-0", "hks-0.05", "hks-0.1", "log-hks")
 
 
 def describe_quickly(
-    paths: Mapping[str, Path], allow_untextured: bool, parameters: Parameters, limits: Limits
+    files: Mapping[str, bytes], allow_untextured: bool, parameters: Parameters, limits: Limits
 ) -> Description:
     """Read the mesh for real, then make numbers from its mean colour; a file's name may ask for trouble."""
-    make_trouble(set(paths))
-    mesh = read_mesh(Upload(files=FilesOnDisk(paths), allow_untextured=allow_untextured), limits)
+    make_trouble(set(files))
+    mesh = read_mesh(Upload(files=files, allow_untextured=allow_untextured), limits)
     return fake_description(mesh, parameters)
 
 

@@ -4,9 +4,10 @@ import shutil
 from pathlib import Path
 
 import pytest
-from sqlalchemy import Engine, text
+from sqlalchemy import text
 
 from index import migrating
+from index.database import make_engine
 
 STEP = '''"""A step that was never made."""
 
@@ -48,28 +49,27 @@ DECISIONS = """
 """
 
 
-def pretend_older(patch: pytest.MonkeyPatch, folder: Path, steps: int = 1) -> None:
-    """Let this be a version that knows only the first steps."""
-    versions = _copied(patch, folder)
-    for path in _steps(versions)[steps:]:
-        path.unlink()
-
-
-def take_back_steps(engine: Engine) -> None:
-    """Make a database what the first step made it."""
-    with engine.begin() as connection:
-        for table in ("api_keys", "dismissals", "tags", "finished_jobs", "deliveries", "webhooks"):
-            connection.execute(text(f"DROP TABLE {table}"))
-        for column in ("queued_at", "claimed_at"):
-            connection.execute(text(f"ALTER TABLE jobs DROP COLUMN {column}"))
-        connection.execute(text("UPDATE alembic_version SET version_num = '0001'"))
-
-
 def pretend_newer(patch: pytest.MonkeyPatch, folder: Path, body: str = INITIALS) -> None:
     """Let this be a version with one step more."""
     versions = _copied(patch, folder)
     newest = _steps(versions)[-1].name.split("_")[0].removeprefix("r")
     (versions / "r9999_made.py").write_text(STEP.format(newest=newest, body=body))
+
+
+def migrated_library(url: str) -> str:
+    """Migrate a database; return the name of its library."""
+    engine = make_engine(url)
+    migrating.migrate(engine)
+    with engine.connect() as connection:
+        library: str = connection.scalar(text("SELECT library FROM state"))
+    engine.dispose()
+    return library
+
+
+def migrate_with(scripts: Path, url: str) -> None:
+    """Migrate a database by the steps of a folder."""
+    migrating.SCRIPTS = scripts
+    migrating.migrate(make_engine(url))
 
 
 def _copied(patch: pytest.MonkeyPatch, folder: Path) -> Path:

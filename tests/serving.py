@@ -23,6 +23,7 @@ from service.settings import Settings
 from soak.wire import Address
 from tests.databases import DATABASES
 from tests.fakes import describe_quickly, fake_signatures
+from tests.storages import PLACES
 from worker.parameters import Parameters
 
 PATIENCE = 120.0  # seconds until a test that would hang fails instead
@@ -41,6 +42,7 @@ def settings_for(folder: Path, **changes: Any) -> Settings:
     if DATABASES.kind == "postgresql":
         folder.mkdir(parents=True, exist_ok=True)
         quick["database_url"] = DATABASES.url(folder)
+    quick["storage_url"] = PLACES.url(folder)
     return Settings(**{**quick, **changes})
 
 

@@ -3,9 +3,9 @@
 from pathlib import Path
 
 from index.dumping import Belongings
-from index.files import FileStore
+from index.local_files import LocalFiles
 from index.shapes import StoredFile
-from service.backup.belongings import made_prefix, needed_files, pieces_of, present_files
+from service.backup.belongings import made_prefix, needed_files, present_files
 
 FILE = StoredFile(name="a.ply", key="uploads/u/0", size=1, sha256="ab")
 
@@ -21,7 +21,7 @@ def test_a_shape_needs_its_uploads_and_a_ready_one_what_was_made_of_them() -> No
 
 
 def test_what_is_kept_for_it_belongs_to_it_too(tmp_path: Path) -> None:
-    files = FileStore(tmp_path)
+    files = LocalFiles(tmp_path)
     for key in ("shapes/s/later.bin", "shapes/s2/other.bin", "uploads/v/0"):
         files.put(key, b"x")
     (tmp_path / "shapes" / "s" / ".DS_Store").write_bytes(b"no key")
@@ -30,9 +30,3 @@ def test_what_is_kept_for_it_belongs_to_it_too(tmp_path: Path) -> None:
 
 def test_the_prefix_ends_the_id() -> None:
     assert made_prefix("s") == "shapes/s/"
-
-
-def test_a_file_comes_in_pieces(tmp_path: Path) -> None:
-    files = FileStore(tmp_path)
-    files.put("a", b"12345")
-    assert list(pieces_of(files, "a", size=2)) == [b"12", b"34", b"5"]

@@ -1,6 +1,4 @@
-import multiprocessing
 import sqlite3
-from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +13,7 @@ from index.migrating import migrate
 from index.revisions import now
 from index.tables import Base, StateRow, VocabularyRow
 from tests.catalogues import add_ready, open_catalogue
-from tests.made_migrations import pretend_newer, take_back_steps
+from tests.made_migrations import pretend_newer
 
 
 def url_in(folder: Path) -> str:
@@ -54,21 +52,6 @@ def test_the_migrations_lead_to_the_mapped_tables(tmp_path: Path) -> None:
 
 def test_migrating_again_changes_nothing(tmp_path: Path) -> None:
     assert migrate_in(tmp_path) == migrate_in(tmp_path)
-
-
-def test_a_library_of_the_first_version_gets_its_tables_and_keeps_what_it_holds(tmp_path: Path) -> None:
-    library = migrate_in(tmp_path)
-    engine = make_engine(url_in(tmp_path))
-    take_back_steps(engine)
-    assert migrate_in(tmp_path) == library
-    assert {"api_keys", "dismissals", "tags"} <= set(inspect(engine).get_table_names())
-    engine.dispose()
-
-
-def test_processes_may_migrate_at_once(tmp_path: Path) -> None:
-    with ProcessPoolExecutor(4, mp_context=multiprocessing.get_context("spawn")) as processes:
-        libraries = set(processes.map(migrate_in, [tmp_path] * 4))
-    assert len(libraries) == 1
 
 
 def test_commits_are_durable_and_keys_are_checked(tmp_path: Path) -> None:

@@ -59,7 +59,13 @@ def test_a_job_is_free_and_its_shape_waits(tmp_path: Path) -> None:
         tables = dumped(moment)
     (job,) = tables["jobs"]
     free = {"attempts": 0, "lease_until": None, "claimed_at": None, "worker": None, "token": None}
-    assert job == {"id": job["id"], "shape_id": "three", "queued_at": job["queued_at"], **free}
+    assert job == {
+        "id": job["id"],
+        "shape_id": "three",
+        "queued_at": job["queued_at"],
+        "fingerprint": None,
+        **free,
+    }
     assert {row["id"]: row["status"] for row in tables["shapes"]}["three"] == "queued"
     opened.engine.dispose()
 

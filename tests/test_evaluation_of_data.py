@@ -7,13 +7,13 @@ import pytest
 
 from index.methods import METHODS
 from index.vocabulary import default_vocabulary
-from service.app import child_limits
 from service.evaluation.describing import Setting, describe_all
 from service.evaluation.folder import read_folder
 from service.evaluation.measuring import load, measure
 from service.evaluation.protocol import ISOMETRY, MIXED, PARTIALITY
 from service.evaluation.scores import Scores, score
 from service.evaluation.suites import Suite, suites
+from service.jobs.executors import child_limits
 from service.jobs.pool import ProcessPerJob
 from service.settings import Settings
 from worker.parameters import Parameters

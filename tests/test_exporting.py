@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 import tarfile
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -32,8 +33,9 @@ from tests.backups import (
     rows_of,
 )
 from tests.made_migrations import DECISIONS, pretend_newer
+from tests.storages import on_disk, only_folders
 
-pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+pytestmark = pytest.mark.usefixtures("kept")  # on SQLite and on PostgreSQL, and with files in a bucket
 
 
 def lines(data: bytes) -> list[dict[str, Any]]:
@@ -79,8 +81,8 @@ def test_what_belongs_to_no_shape_stays_behind(tmp_path: Path) -> None:
     with opened(tmp_path / "from") as library:
         shape = add_ready(library, 10)
         library.files.put("uploads/killed/0", b"never got a row")
-        stray = library.files.path(f"shapes/{shape.id}/thumbnail.png").with_name(".DS_Store")
-        stray.write_bytes(b"a file manager's")
+        if library.files.folder is not None:
+            (library.files.folder / f"shapes/{shape.id}/.DS_Store").write_bytes(b"a file manager's")
         summary = export_library(library, tmp_path / "library.tar")
     names = [name for name in parts_of(tmp_path / "library.tar") if name.startswith("files/")]
     assert len(names) == summary.files == 4
@@ -125,17 +127,14 @@ def test_half_the_files_of_a_shape_that_vanishes_are_taken_out_again(
 ) -> None:
     with opened(tmp_path / "from") as library, opened(tmp_path / "from") as other:
         shape = add_ready(library, 10)
-        paths = library.files.path
+        pieces = library.files.pieces
 
-        def path(key: str) -> Path:
+        def late(key: str) -> Iterator[bytes]:
             if key.endswith("signatures.npz"):
                 remove_shape(other, shape.id)
-            return paths(key)
+            return pieces(key)
 
-        def pieces(_: object, key: str) -> list[bytes]:
-            return [path(key).read_bytes()]
-
-        monkeypatch.setattr("service.backup.exporting.pieces_of", pieces)
+        monkeypatch.setattr(library.files, "pieces", late)
         assert export_library(library, tmp_path / "library.tar").left_out == (shape.id,)
     assert not any(name.startswith("files/") for name in parts_of(tmp_path / "library.tar"))
 
@@ -157,12 +156,13 @@ def test_a_failed_shape_that_is_sent_anew_meanwhile_is_left_out(tmp_path: Path) 
     assert (summary.shapes, summary.left_out) == (0, (shape.id,))
 
 
+@only_folders
 def test_what_is_missing_altered_or_unreadable_is_told_and_the_rest_is_saved(tmp_path: Path) -> None:
     with opened(tmp_path / "from") as library:
         one, two, three, four = (add_ready(library, red) for red in (10, 60, 110, 160))
         library.files.delete(one.files[0].key)
         library.files.put(two.files[0].key, b"rotten")
-        path = library.files.path(f"shapes/{three.id}/preview.glb")
+        path = on_disk(library.files).path(f"shapes/{three.id}/preview.glb")
         path.unlink()
         path.mkdir()  # reading it fails, for root too
         summary = export_library(library, tmp_path / "library.tar")
@@ -264,6 +264,7 @@ with opened(Path(sys.argv[1])) as library:
 """
 
 
+@only_folders
 def test_a_disk_that_fills_on_the_way_leaves_nothing(tmp_path: Path) -> None:
     exported(tmp_path)
     (tmp_path / "out").mkdir()

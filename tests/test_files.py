@@ -1,194 +1,143 @@
-import errno
+"""What every place for files promises, a folder and a bucket alike."""
+
+import hashlib
 import io
 import os
-import stat
-from concurrent.futures import ThreadPoolExecutor
-from hashlib import sha256
+import time
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
 
-from index.errors import FileMissing, StorageFull
+from index.errors import FileMissing
+from index.file_places import open_files
 from index.files import FileStore
+from tests.storages import PLACES
+
+pytestmark = pytest.mark.usefixtures("storage")  # with files in a folder and in a bucket
+
+LONG = (17 << 20) + 1  # bytes; sent to a bucket in three pieces
 
 
-def everything_in(root: Path) -> list[str]:
-    return sorted(str(path.relative_to(root)) for path in root.rglob("*") if path.name != ".incoming")
+@pytest.fixture
+def files(tmp_path: Path) -> FileStore:
+    return open_files(PLACES.url(tmp_path), tmp_path / "files")
 
 
-def test_what_was_put_is_given_back(tmp_path: Path) -> None:
-    store = FileStore(tmp_path / "files")
-    store.put("shapes/a/files/0", b"one")
-    store.put("shapes/a/files/0", b"another")
-    assert store.get("shapes/a/files/0") == b"another"
-    assert store.path("shapes/a/files/0").read_bytes() == b"another"
+class Broken(io.BytesIO):
+    """A stream that breaks off after a while."""
+
+    def read(self, size: int | None = -1, /) -> bytes:
+        """Read, up to where it breaks."""
+        if self.tell() >= 9 << 20:
+            raise ConnectionError("cut")
+        return super().read(size)
 
 
-def test_a_stream_is_kept_with_its_size_and_checksum(tmp_path: Path) -> None:
-    data = os.urandom(3 << 20) + b"x"
-    store = FileStore(tmp_path)
-    assert store.put_stream("k", io.BytesIO(data)) == (len(data), sha256(data).hexdigest())
-    assert store.get("k") == data
+def test_what_was_put_is_given_back(files: FileStore) -> None:
+    files.put("shapes/a/files/0", b"one")
+    files.put("shapes/a/files/0", b"another")
+    assert files.get("shapes/a/files/0") == b"another"
 
 
-def test_the_content_is_flushed_before_the_name_appears_and_the_folder_after(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    store = FileStore(tmp_path)
-    store.put("shapes/first", b"makes the folders")
-    steps: list[tuple[str, str]] = []
-    flush, replace = os.fsync, os.replace
-
-    def watched_flush(descriptor: int) -> None:
-        status = os.fstat(descriptor)
-        steps.append(("flush", "folder" if stat.S_ISDIR(status.st_mode) else f"{status.st_size} bytes"))
-        flush(descriptor)
-
-    def watched_replace(source: str | Path, target: str | Path) -> None:
-        steps.append(("rename", Path(target).name))
-        replace(source, target)
-
-    monkeypatch.setattr(os, "fsync", watched_flush)
-    monkeypatch.setattr(os, "replace", watched_replace)
-    store.put("shapes/second", b"12345")
-    assert steps == [("flush", "5 bytes"), ("rename", "second"), ("flush", "folder")]
+@pytest.mark.parametrize("size", [0, 1, (8 << 20) - 1, 8 << 20, LONG])
+def test_a_stream_is_kept_with_its_size_and_checksum(files: FileStore, size: int) -> None:
+    data = os.urandom(size)
+    assert files.put_stream("k", io.BytesIO(data)) == (size, hashlib.sha256(data).hexdigest())
+    assert files.get("k") == data
+    assert b"".join(files.pieces("k")) == data
+    assert files.facts("k").size == size
 
 
-def test_new_folders_are_made_durable_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    flushed: list[Path] = []
-    flush = os.fsync
-
-    def watched_flush(descriptor: int) -> None:
-        flushed.append(Path(f"/proc/self/fd/{descriptor}").resolve())
-        flush(descriptor)
-
-    monkeypatch.setattr(os, "fsync", watched_flush)
-    FileStore(tmp_path).put("a/b/c", b"")
-    assert {tmp_path, tmp_path / "a", tmp_path / "a" / "b"} <= set(flushed)
+def test_a_long_file_comes_in_pieces(files: FileStore) -> None:
+    files.put_stream("k", io.BytesIO(bytes(LONG)))
+    assert max(map(len, files.pieces("k"))) <= 8 << 20
 
 
-@pytest.mark.parametrize("number", [errno.ENOSPC, errno.EDQUOT])
-def test_a_full_disk_is_named_and_leaves_nothing(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, number: int
-) -> None:
-    store = FileStore(tmp_path)
-
-    def full(_descriptor: int) -> None:
-        raise OSError(number, os.strerror(number))
-
-    with monkeypatch.context() as patch:
-        patch.setattr(os, "fsync", full)
-        with pytest.raises(StorageFull):
-            store.put("shapes/a/files/0", b"data")
-    assert everything_in(tmp_path) == []
-    store.put("shapes/a/files/0", b"data")
-    assert store.get("shapes/a/files/0") == b"data"
+def test_a_part_of_a_file_is_read_alone(files: FileStore) -> None:
+    files.put("k", bytes(range(100)))
+    assert files.get_part("k", 3, 7) == bytes([3, 4, 5, 6])
+    assert files.get_part("k", 99, 100) == bytes([99])
 
 
-def test_a_disk_that_fills_while_a_file_is_replaced_keeps_the_old_one(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    store = FileStore(tmp_path)
-    store.put("a/b", b"old")
-
-    def full(_source: object, _target: object) -> None:
-        raise OSError(errno.ENOSPC, "no space")
-
-    monkeypatch.setattr(os, "replace", full)
-    with pytest.raises(StorageFull):
-        store.put("a/b", b"new")
-    assert store.get("a/b") == b"old"
-    assert everything_in(tmp_path) == ["a", "a/b"]
+def test_one_can_seek_in_an_open_file(files: FileStore) -> None:
+    files.put("k", b"0123456789")
+    with files.open("k") as file:
+        file.seek(-3, os.SEEK_END)
+        assert file.read(2) == b"78"
 
 
-def test_a_stream_that_breaks_off_leaves_nothing(tmp_path: Path) -> None:
-    class Broken(io.BytesIO):
-        def read(self, size: int | None = -1, /) -> bytes:
-            if self.tell():
-                raise ConnectionError("cut")
-            return super().read(size)
-
+def test_a_stream_that_breaks_off_leaves_nothing_and_what_was_there(files: FileStore) -> None:
     with pytest.raises(ConnectionError):
-        FileStore(tmp_path).put_stream("a/b", Broken(b"x" * (2 << 20)))
-    assert everything_in(tmp_path) == []
+        files.put_stream("a/b", Broken(bytes(LONG)))
+    assert list(files.keys()) == []
+    files.put("a/b", b"old")
+    with pytest.raises(ConnectionError):
+        files.put_stream("a/b", Broken(bytes(LONG)))
+    assert files.get("a/b") == b"old"
 
 
 @pytest.mark.parametrize(
     "key", ["", "/etc/passwd", "..", "a/../b", "a/..", "./a", "a//b", "a/", ".incoming/x", "a\\b", "ä", "a\n"]
 )
-def test_a_key_that_we_cannot_have_made_is_refused(tmp_path: Path, key: str) -> None:
+def test_a_key_that_we_cannot_have_made_is_refused(files: FileStore, key: str) -> None:
+    for use in (files.get, files.facts, files.open, files.delete, files.delete_all, files.changed):
+        with pytest.raises(ValueError, match="not a file key"):
+            use(key)
     with pytest.raises(ValueError, match="not a file key"):
-        FileStore(tmp_path).put(key, b"")
+        files.put(key, b"")
+    with pytest.raises(ValueError, match="not a file key"):
+        files.put_stream(key, io.BytesIO())
 
 
-def test_what_is_absent_is_named(tmp_path: Path) -> None:
+def test_what_is_absent_is_named(files: FileStore) -> None:
+    files.put("a/c", b"")
+    for use in (files.get, files.facts, files.open, lambda key: list(files.pieces(key))):
+        with pytest.raises(FileMissing, match="'a/b'"):
+            use("a/b")
     with pytest.raises(FileMissing, match="'a/b'"):
-        FileStore(tmp_path).get("a/b")
+        files.get_part("a/b", 0, 1)
 
 
-def test_deleting_removes_emptied_folders_and_only_those(tmp_path: Path) -> None:
-    store = FileStore(tmp_path)
-    for key in ("shapes/a/files/0", "shapes/a/thumbnail.png", "shapes/b/files/0"):
-        store.put(key, b"")
-    store.delete("shapes/a/files/0")
-    store.delete("shapes/a/files/0")
-    assert list(store.keys()) == ["shapes/a/thumbnail.png", "shapes/b/files/0"]
-    store.delete_all("shapes/a")
-    store.delete_all("shapes/a")
-    assert everything_in(tmp_path) == ["shapes", "shapes/b", "shapes/b/files", "shapes/b/files/0"]
+def test_deleting_what_is_absent_is_fine_and_takes_nothing_else(files: FileStore) -> None:
+    for key in ("shapes/a/files/0", "shapes/a/thumbnail.png", "shapes/ab/0", "shapes/b/0"):
+        files.put(key, b"")
+    for _ in range(2):
+        files.delete("shapes/a/files/0")
+    assert list(files.keys()) == ["shapes/a/thumbnail.png", "shapes/ab/0", "shapes/b/0"]
+    for _ in range(2):
+        files.delete_all("shapes/a")
+    assert list(files.keys()) == ["shapes/ab/0", "shapes/b/0"]
 
 
-def test_keys_of_a_folder_are_listed_without_half_written_files(tmp_path: Path) -> None:
-    store = FileStore(tmp_path)
-    store.put("a/1", b"")
-    store.put("b/2", b"")
-    (tmp_path / ".incoming" / "half").write_bytes(b"")
-    assert list(store.keys()) == ["a/1", "b/2"]
-    assert list(store.keys("b")) == ["b/2"]
-    assert list(store.keys("c")) == []
+def test_keys_of_a_folder_are_listed_in_order(files: FileStore) -> None:
+    for key in ("b/2", "a/1/x", "a/10", "a/2"):
+        files.put(key, b"")
+    assert list(files.keys()) == ["a/1/x", "a/10", "a/2", "b/2"]
+    assert list(files.keys("a")) == ["a/1/x", "a/10", "a/2"]
+    assert list(files.keys("c")) == []
 
 
-def test_sweeping_removes_old_half_written_files_alone(tmp_path: Path) -> None:
-    store = FileStore(tmp_path)
-    store.put("a/1", b"")
-    for name, modified in (("old", 1_000.0), ("future", 9e9)):
-        path = tmp_path / ".incoming" / name
-        path.write_bytes(b"")
-        os.utime(path, (modified, modified))
-    assert store.sweep(60) == 1
-    assert sorted(path.name for path in (tmp_path / ".incoming").iterdir()) == ["future"]
-    assert list(store.keys()) == ["a/1"]
+def test_each_file_tells_when_it_was_written(files: FileStore) -> None:
+    before = int(time.time())
+    files.put("a/1", b"")
+    assert dict(files.changes("a")).keys() == {"a/1"}
+    assert before <= dict(files.changes("a"))["a/1"] <= time.time() + 1
+    assert files.changed("a/1") == pytest.approx(dict(files.changes("a"))["a/1"], abs=1)
+    assert files.changed("a/absent") >= before
 
 
-def test_deleting_beside_writing_in_one_folder_harms_neither(tmp_path: Path) -> None:
-    store = FileStore(tmp_path)
-
-    def again_and_again(name: str) -> None:
-        for _ in range(60):
-            store.put(f"shared/{name}", b"x")
-            assert store.get(f"shared/{name}") == b"x"
-            store.delete(f"shared/{name}")
-
-    with ThreadPoolExecutor(4) as threads:
-        for done in [threads.submit(again_and_again, f"n{number}") for number in range(4)]:
-            done.result()
-    assert everything_in(tmp_path) == []
+def test_another_content_has_another_tag(files: FileStore) -> None:
+    tags = []
+    for data in (b"one", b"four", b"nine!"):
+        files.put("k", data)
+        tags.append(files.facts("k").tag)
+    assert len(set(tags)) == 3
+    assert files.facts("k").tag == tags[-1]
 
 
-def test_many_files_are_flushed_at_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    flushed: list[int] = []  # inodes, and 0 for everything
-    monkeypatch.setattr("index.files.os.sync", lambda: flushed.append(0))
-    monkeypatch.setattr("index.files.os.fsync", lambda number: flushed.append(os.fstat(number).st_ino))
-    store = FileStore(tmp_path / "files")
-    keys = ["a/b/0", "a/b/1", "a/c/0"]
-    for key in keys:
-        store.write(key, lambda file: file.write(b"x"), flushed=False)
-    assert flushed == []
-    monkeypatch.setattr("index.files.sys", SimpleNamespace(platform="linux"))
-    store.flush(keys)
-    assert flushed == [0]
-    monkeypatch.setattr("index.files.sys", SimpleNamespace(platform="darwin"))
-    store.flush(keys)
-    needed = [tmp_path, *(tmp_path / "files" / place for place in ("", "a", "a/b", "a/c", *keys))]
-    assert set(flushed[1:]) == {path.stat().st_ino for path in needed}
+def test_what_was_put_unflushed_is_there(files: FileStore) -> None:
+    files.put("a/1", b"one", flushed=False)
+    files.put_stream("a/2", io.BytesIO(b"two"), flushed=False)
+    files.flush(["a/1", "a/2"])
+    assert [files.get(key) for key in files.keys("a")] == [b"one", b"two"]
+    assert files.sweep(0) == 0

@@ -28,15 +28,16 @@ from tests.backups import (
     files_of,
     fill,
     forged,
+    of_the_first_schema,
     opened,
     parts_of,
     released,
     rows_of,
 )
-from tests.databases import only_on_sqlite
-from tests.made_migrations import pretend_newer, pretend_older, take_back_steps
+from tests.made_migrations import pretend_newer
+from tests.storages import only_sqlite
 
-pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+pytestmark = pytest.mark.usefixtures("kept")  # on SQLite and on PostgreSQL, and with files in a bucket
 
 
 def answers(library: Library) -> list[Any]:
@@ -81,19 +82,13 @@ def test_a_library_that_is_exported_again_gives_the_same_members(tmp_path: Path)
     assert {name for name in one if one[name] != other[name]} == {"library.json", "SHA256SUMS"}
 
 
-def test_an_export_of_the_first_schema_is_brought_to_this_one(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_export_of_the_first_schema_is_brought_to_this_one(tmp_path: Path) -> None:
     with opened(tmp_path / "from") as before:
         fill(before)
         add_queued(before, 99, tags=["Vase"])
         rows, files, found = released(rows_of(before)), files_of(before), answers(before)
-        take_back_steps(before.engine)
-    archive = tmp_path / "library.tar"
-    with monkeypatch.context() as patch:
-        pretend_older(patch, tmp_path)
-        with opened(tmp_path / "from") as before:
-            export_library(before, archive)
+        export_library(before, tmp_path / "library.tar")
+    archive = forged(tmp_path / "library.tar", of_the_first_schema)
     with opened(tmp_path / "to") as after:
         import_library(after, archive)
         jobs = [{**job, "queued_at": None} for job in rows["jobs"]]
@@ -103,7 +98,7 @@ def test_an_export_of_the_first_schema_is_brought_to_this_one(
         assert answers(after) == found
 
 
-@only_on_sqlite
+@only_sqlite
 def test_the_steps_between_two_versions_work_on_the_rows(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -118,7 +113,7 @@ def test_the_steps_between_two_versions_work_on_the_rows(
         assert answers(after) == answers(before)
 
 
-@only_on_sqlite
+@only_sqlite
 def test_a_schema_of_a_later_version_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with monkeypatch.context() as patch:
         pretend_newer(patch, tmp_path)
@@ -213,7 +208,7 @@ def test_a_library_that_is_emptied_and_restored_is_searched_anew(tmp_path: Path)
         assert library.catalogue.revision() == last > revision  # whoever watches has heard of no later one
 
 
-@only_on_sqlite
+@only_sqlite
 def test_an_index_that_was_saved_later_is_not_believed(tmp_path: Path) -> None:
     with opened(tmp_path / "lib") as library:
         one, shape = add_ready(library, 10), add_queued(library, 60)

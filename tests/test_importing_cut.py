@@ -1,6 +1,6 @@
 """An import that is stopped, killed, swept beside or deceived: all comes, or nothing."""
 
-import os
+import time
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +18,12 @@ from tests.backups import (
     rows_of,
 )
 from tests.commanding import start
+from tests.serving import settings_for
+from tests.storages import make_older
+
+pytestmark = pytest.mark.usefixtures("storage")  # with files in a folder and in a bucket
+
+LONG_AGO = 1e6  # seconds
 
 
 def test_an_import_that_fails_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -49,6 +55,7 @@ with opened(Path(sys.argv[2])) as library:
 
 def test_an_import_that_is_killed_can_be_repeated(tmp_path: Path) -> None:
     archive = exported(tmp_path)
+    settings_for(tmp_path / "to")  # notes in the folder where its files are
     with start(archive, tmp_path / "to", script=KILLED) as process:
         assert process.wait() == 9, process.communicate()
     with opened(tmp_path / "to") as library, opened(tmp_path / "from") as before:
@@ -61,6 +68,7 @@ def test_an_import_that_is_killed_can_be_repeated(tmp_path: Path) -> None:
 
 def test_what_a_killed_import_left_is_swept(tmp_path: Path) -> None:
     archive = exported(tmp_path)
+    settings_for(tmp_path / "to")  # notes in the folder where its files are
     with start(archive, tmp_path / "to", script=KILLED) as process:
         assert process.wait() == 9, process.communicate()
     with opened(tmp_path / "to") as library:
@@ -89,15 +97,14 @@ def test_files_of_a_long_import_are_kept_from_the_sweeper(
                 for key in list(library.files.keys())[:5]:
                     library.files.delete(key)
                 for key in library.files.keys():  # noqa: SIM118 - no mapping
-                    os.utime(library.files.path(key), (0, 0))
+                    make_older(library.files, key, LONG_AGO)
             return count
 
         monkeypatch.setattr(importing, "_put_files", put_and_sweep)
         monkeypatch.setattr(importing, "_LONG", -1.0)
         import_library(library, archive)
         assert files_of(library) == files_of(before)
-        ages = [library.files.path(key).stat().st_mtime for key in library.files.keys()]  # noqa: SIM118
-        assert min(ages) > 0
+        assert min(moment for _, moment in library.files.changes("")) > time.time() - LONG_AGO / 2
 
 
 def test_an_archive_that_changes_after_it_was_checked_is_refused(tmp_path: Path) -> None:

@@ -6,9 +6,9 @@ import pytest
 
 from index import index_file, sketch, vectors
 from index.errors import DamagedIndex
-from index.files import FileStore
 from index.index_file import Header, load_index, save_index
 from index.layout import Layout
+from index.local_files import LocalFiles
 from index.methods import METHODS
 from index.ranking import rank
 from index.vectors import Vectors
@@ -43,7 +43,7 @@ def filled() -> Vectors:
 
 def saved(folder: Path, filled: Vectors) -> Path:
     header = replace(HEADER, ids=list(filled.ids))
-    save_index(FileStore(folder), "m.vectors", header, filled.arrays())
+    save_index(LocalFiles(folder), "m.vectors", header, filled.arrays())
     return folder / "m.vectors"
 
 
@@ -69,7 +69,7 @@ def test_what_was_loaded_ranks_as_before_and_may_grow(tmp_path: Path, filled: Ve
 
 def test_empty_arrays_and_arrays_without_axes_come_back(tmp_path: Path) -> None:
     arrays = {"none": np.empty((0, 3), np.float32), "one": np.array(7), "two": np.array([True, False])}
-    save_index(FileStore(tmp_path), "m", HEADER, arrays)
+    save_index(LocalFiles(tmp_path), "m", HEADER, arrays)
     _, read = load_index(tmp_path / "m")
     for name, array in arrays.items():
         assert read[name].shape == array.shape
@@ -90,6 +90,6 @@ def test_every_flipped_bit_and_every_cut_is_noticed(tmp_path: Path, filled: Vect
 def test_an_absent_file_and_another_format_are_refused(tmp_path: Path) -> None:
     with pytest.raises(DamagedIndex, match="cannot be read"):
         load_index(tmp_path / "none")
-    save_index(FileStore(tmp_path), "m", replace(HEADER, format=99), {})
+    save_index(LocalFiles(tmp_path), "m", replace(HEADER, format=99), {})
     with pytest.raises(DamagedIndex, match="format 99"):
         load_index(tmp_path / "m")

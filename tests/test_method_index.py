@@ -4,12 +4,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from index.files import FileStore
+from index.local_files import LocalFiles
 from index.method_index import MethodIndex
 from index.methods import METHODS
+from index.pgvector.opening import views
+from index.searcher import View
 from tests.catalogues import Opened, add_ready, make_vocabulary, open_catalogue
+from tests.databases import DATABASES, only_in_memory
 
-pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+pytestmark = pytest.mark.usefixtures("indexed")  # in memory, on SQLite and on PostgreSQL, and in pgvector
 
 QUERY = {"hks-0": np.array([0.0, 0.0], dtype=np.float32)}
 NEW = make_vocabulary(2)
@@ -23,11 +26,13 @@ def opened(tmp_path: Path) -> Iterator[Opened]:
     opened.engine.dispose()
 
 
-def make_index(opened: Opened, folder: Path) -> MethodIndex:
-    return MethodIndex(METHODS["hks"], opened.catalogue, FileStore(folder / "index"))
+def make_index(opened: Opened, folder: Path) -> View:
+    if DATABASES.index == "pgvector":
+        return views(opened.catalogue, opened.engine)(METHODS["hks"])
+    return MethodIndex(METHODS["hks"], opened.catalogue, LocalFiles(folder / "index"))
 
 
-def answer(found: MethodIndex) -> list[tuple[str, float]]:
+def answer(found: View) -> list[tuple[str, float]]:
     return found.rank(METHODS["hks"], QUERY, 10, (), None)
 
 
@@ -66,6 +71,7 @@ def test_a_vocabulary_that_changes_meanwhile_leaves_no_half_index(
     assert answer(found) == [("a", 3.0), ("b", 3.0), ("c", 3.0)]
 
 
+@only_in_memory
 def test_an_unchanged_index_is_written_once(
     opened: Opened, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -73,13 +79,13 @@ def test_an_unchanged_index_is_written_once(
     found = make_index(opened, tmp_path)
     found.catch_up()
     written: list[str] = []
-    write = FileStore.write
+    write = LocalFiles.write
 
-    def watched(self: FileStore, key: str, fill: object) -> int:
+    def watched(self: LocalFiles, key: str, fill: object) -> int:
         written.append(key)
         return write(self, key, fill)  # type: ignore[arg-type] # handed on as it came
 
-    monkeypatch.setattr(FileStore, "write", watched)
+    monkeypatch.setattr(LocalFiles, "write", watched)
     found.save()
     assert written == []
     again = make_index(opened, tmp_path)
@@ -92,6 +98,7 @@ def test_an_unchanged_index_is_written_once(
     assert written == ["hks.vectors"]
 
 
+@only_in_memory
 def test_what_changed_before_the_file_was_written_is_read_again(opened: Opened, tmp_path: Path) -> None:
     for shape_id in "ab":
         add_ready(opened, shape_id)

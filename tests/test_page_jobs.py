@@ -19,12 +19,12 @@ from worker.reading.limits import Limits
 
 
 def describe_unless(
-    narrow: Path, paths: Mapping[str, Path], allow_untextured: bool, parameters: Parameters, limits: Limits
+    narrow: Path, files: Mapping[str, bytes], allow_untextured: bool, parameters: Parameters, limits: Limits
 ) -> Description:
     """Refuse everything as long as a file is there, as a worker with little memory does."""
     if narrow.exists():
         raise MeshError(Code.TOO_COMPLEX, "it needs more memory than a mesh may take")
-    return describe_quickly(paths, allow_untextured, parameters, limits)
+    return describe_quickly(files, allow_untextured, parameters, limits)
 
 
 @pytest.fixture

@@ -17,6 +17,7 @@ QUEUE: dict[str, Any] = {
     "finished": {"last_minute": 41, "last_hour": 1200},
     "median_seconds": 1.72,
     "expected_seconds": 170.0,
+    "renewal": None,
 }
 LATER = 1772357520000  # 2026-03-01T09:32:00Z
 
@@ -51,6 +52,14 @@ def test_what_there_is_to_do_and_until_when(page: Page) -> None:
 def test_spans_of_time_are_guessed_as_people_do(page: Page, seconds: float, words: str) -> None:
     call = "async (seconds) => (await import('/static/jobs/sentences.js')).about(seconds)"
     assert page.evaluate(call, seconds) == words
+
+
+def test_how_far_a_new_version_is_with_all_shapes(page: Page) -> None:
+    assert said(page, "renewalOf", renewal=None) is None
+    told = said(page, "renewalOf", renewal={"done": 1200, "failed": 0, "total": 20_000})
+    assert told.startswith("1,200 of 20,000 shapes are described anew")
+    assert "answer from the earlier descriptions" in told
+    assert "1 shape could not be" in said(page, "renewalOf", renewal={"done": 0, "failed": 1, "total": 2})
 
 
 def test_how_fast_it_goes(page: Page) -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from index.files import FileStore
+from index.local_files import LocalFiles
 from service.relations import postures
 from service.relations.postures import Postures, posture_of, rehearse
 from service.storage import PREVIEW, derived_key
@@ -20,13 +20,13 @@ def glb(height: float = 1.0) -> bytes:
 
 
 @pytest.fixture
-def files(tmp_path: Path) -> FileStore:
-    store = FileStore(tmp_path)
+def files(tmp_path: Path) -> LocalFiles:
+    store = LocalFiles(tmp_path)
     store.put(derived_key("a", PREVIEW), glb())
     return store
 
 
-def test_a_posture_is_remembered_until_the_shape_changes(files: FileStore) -> None:
+def test_a_posture_is_remembered_until_the_shape_changes(files: LocalFiles) -> None:
     known = Postures()
     first = known.of(files, "a", 1)
     np.testing.assert_array_equal(first, posture_of(glb()))
@@ -35,20 +35,20 @@ def test_a_posture_is_remembered_until_the_shape_changes(files: FileStore) -> No
     np.testing.assert_array_equal(known.of(files, "a", 2), posture_of(glb(height=2.0)))
 
 
-def test_without_a_preview_there_is_none_until_it_comes(files: FileStore) -> None:
+def test_without_a_preview_there_is_none_until_it_comes(files: LocalFiles) -> None:
     known = Postures()
     assert known.of(files, "b", 1) is None
     files.put(derived_key("b", PREVIEW), glb())
     assert known.of(files, "b", 1) is not None
 
 
-def test_what_is_no_preview_has_no_posture(files: FileStore) -> None:
+def test_what_is_no_preview_has_no_posture(files: LocalFiles) -> None:
     files.put(derived_key("a", PREVIEW), b"no GLB")
     assert Postures().of(files, "a", 1) is None
     assert posture_of(b"") is None
 
 
-def test_the_longest_unused_is_forgotten(files: FileStore, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_longest_unused_is_forgotten(files: LocalFiles, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(postures, "MOST", 2)
     known = Postures()
     for revision in (1, 2, 1, 3):

@@ -80,8 +80,8 @@ def lose(broken: Broken) -> None:
 
 
 def alter(broken: Broken) -> None:
-    path = broken.library.files.path(broken.library.catalogue.get(broken.ids[3]).files[0].key)
-    path.write_bytes(path.read_bytes().replace(b"ply", b"plx"))
+    key = broken.library.catalogue.get(broken.ids[3]).files[0].key
+    broken.library.files.put(key, broken.library.files.get(key).replace(b"ply", b"plx"))
 
 
 def lose_a_file(broken: Broken) -> None:

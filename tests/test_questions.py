@@ -45,11 +45,11 @@ def test_one_block_is_told_of_the_shapes_that_have_it(opened: Opened) -> None:
     add_ready(opened, "b")
     add_queued(opened, "waiting")
     (name,) = HISTOGRAM
-    found = opened.catalogue.one_block(["b", "a", "waiting", "unknown"], name)
+    found = opened.catalogue.one_block(["b", "a", "waiting", "unknown"], name, opened.vocabulary_id)
     assert found.keys() == {"a", "b"}
     np.testing.assert_array_equal(found["a"], opened.catalogue.blocks("a", None)[name])
-    assert opened.catalogue.one_block([], name) == {}
-    assert opened.catalogue.one_block(["a"], "unknown") == {}
+    assert opened.catalogue.one_block([], name, opened.vocabulary_id) == {}
+    assert opened.catalogue.one_block(["a"], "unknown", opened.vocabulary_id) == {}
 
 
 def test_many_shapes_are_what_each_is_alone(opened: Opened, monkeypatch: pytest.MonkeyPatch) -> None:

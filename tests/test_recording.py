@@ -17,7 +17,7 @@ from tests.fakes import coloured_triangle, describe_quickly
 from tests.serving import open_fake_library, settings_for
 from worker.describe import Description
 
-pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+pytestmark = pytest.mark.usefixtures("kept")  # on SQLite and on PostgreSQL, and with files in a bucket
 
 
 @pytest.fixture
@@ -34,7 +34,7 @@ def described(library: Library) -> tuple[Job, Description]:
     accept_upload(library, receive_paths({"a.ply": path}))
     job = library.queue.claim("test", 0.0)
     assert job is not None
-    return job, describe_quickly({"a.ply": path}, False, library.parameters, library.limits)
+    return job, describe_quickly({"a.ply": path.read_bytes()}, False, library.parameters, library.limits)
 
 
 def test_a_description_makes_the_shape_ready_with_its_files(

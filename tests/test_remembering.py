@@ -1,7 +1,5 @@
 """Queries are remembered for an hour, as well as can be."""
 
-import os
-import time
 from collections.abc import Iterator
 from datetime import timedelta
 from pathlib import Path
@@ -18,9 +16,12 @@ from service.remembered_words import in_active_words
 from service.remembering import LIFETIME, QueryNotFound, forget_old, recall, remember, remembered_file
 from tests.fakes import coloured_triangle, describe_quickly
 from tests.serving import fake_vocabulary, open_fake_library, settings_for
+from tests.storages import make_older
 from worker.describe import Description
 from worker.parameters import Parameters
 from worker.reading.limits import Limits
+
+pytestmark = pytest.mark.usefixtures("storage")  # with files in a folder and in a bucket
 
 
 @pytest.fixture
@@ -40,7 +41,7 @@ def submission(tmp_path: Path) -> Submission:
 
 @pytest.fixture
 def described(submission: Submission) -> Description:
-    return describe_quickly(submission.paths, False, Parameters(), Limits())
+    return describe_quickly(submission.contents, False, Parameters(), Limits())
 
 
 def remembered(library: Library, submission: Submission, described: Description) -> str:
@@ -54,9 +55,8 @@ def kept(library: Library) -> set[str]:
 
 
 def grow_older(library: Library, query_id: str, seconds: float) -> None:
-    moment = time.time() - seconds
     for key in library.files.keys(f"queries/{query_id}"):
-        os.utime(library.files.path(key), (moment, moment))
+        make_older(library.files, key, seconds)
 
 
 def test_what_is_recalled_is_what_was_described(
@@ -114,7 +114,7 @@ def test_a_full_disk_costs_the_memory_alone(
         raise StorageFull("full")
 
     with monkeypatch.context() as patch:
-        patch.setattr(library.files, "write", full)
+        patch.setattr(library.files, "put", full)
         assert remember(library, submission, described, described.blocks, "v") is None
     assert kept(library) == set()
 

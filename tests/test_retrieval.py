@@ -14,7 +14,7 @@ from tests.fakes import coloured_triangle
 from tests.serving import open_fake_library, settings_for
 from worker.errors import MeshError
 
-pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+pytestmark = pytest.mark.usefixtures("kept")  # on SQLite and on PostgreSQL, and with files in a bucket
 
 
 @pytest.fixture

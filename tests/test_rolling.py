@@ -29,7 +29,7 @@ def filled(library: Library, folder: Path) -> list[str]:
         accept_upload(library, receive_paths({"a.ply": path}))
         job = library.queue.claim("test", 600)
         assert job is not None
-        described = describe_quickly({"a.ply": path}, True, library.parameters, library.limits)
+        described = describe_quickly({"a.ply": path.read_bytes()}, True, library.parameters, library.limits)
         record_description(library, job, described)
     return [shape.id for shape in library.catalogue.list(limit=50, status=Status.READY).items]
 

@@ -8,9 +8,11 @@ from tests.fakes import coloured_triangle
 from tests.problems import problem
 from tests.serving import Serving, serving, settings_for
 
+pytestmark = pytest.mark.usefixtures("storage")  # with files in a folder and in a bucket
+
 
 @pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Serving]:
+def service(storage: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Serving]:
     with serving(settings_for(tmp_path_factory.mktemp("library"))) as running:
         yield running
 

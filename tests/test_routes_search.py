@@ -42,6 +42,20 @@ def test_similar_shapes_are_ranked_without_the_shape_itself(service: Serving) ->
     assert "query" not in answer or answer["query"] is None
 
 
+def test_an_answer_says_whether_it_is_exact(service: Serving, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = f"/v1/shapes/{shape_id(service, 60)}/similar"
+    assert service.client.get(path).json()["exact"] is True
+    asked: list[object] = []
+
+    def proves(_: object, *question: object) -> bool:
+        asked.append(question)
+        return False
+
+    monkeypatch.setattr("index.searcher.Searcher.proves", proves)
+    assert service.client.get(path, params={"limit": 2}).json()["exact"] is False
+    assert asked == [("fused", 24, None)]
+
+
 def test_method_and_limit_are_obeyed(service: Serving) -> None:
     path = f"/v1/shapes/{shape_id(service, 10)}/similar"
     for method in ("hks", "chks", "diffusion", "colour-diffusion", "colour-histogram"):

@@ -15,14 +15,20 @@ from index.errors import (
     UnknownMethod,
     VocabularyChanged,
 )
-from index.files import FileStore
+from index.local_files import LocalFiles
 from index.methods import METHODS, with_weights
-from index.searcher import Searcher
 from tests.brute_force import METHOD_NAMES, PLAIN, Blocks, add, agrees, brute_force, make_blocks
-from tests.catalogues import Opened, add_queued, add_ready, make_vocabulary, open_catalogue
-from tests.databases import only_on_sqlite
+from tests.catalogues import (
+    Opened,
+    add_queued,
+    add_ready,
+    make_searcher,
+    make_vocabulary,
+    open_catalogue,
+)
+from tests.databases import only_in_memory, only_in_memory_on_sqlite
 
-pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+pytestmark = pytest.mark.usefixtures("indexed")  # in memory, on SQLite and on PostgreSQL, and in pgvector
 
 
 @pytest.fixture
@@ -35,7 +41,7 @@ def opened(tmp_path: Path) -> Iterator[Opened]:
 def test_every_method_answers_as_brute_force_over_the_catalogue(opened: Opened, tmp_path: Path) -> None:
     for number in range(70):
         add(opened, number)
-    searcher = Searcher(opened.catalogue, tmp_path / "index")
+    searcher = make_searcher(opened, tmp_path / "index")
     for limit in (1, 10, 69, 500):
         assert agrees(searcher, opened, limit)
 
@@ -43,7 +49,7 @@ def test_every_method_answers_as_brute_force_over_the_catalogue(opened: Opened, 
 def test_own_weights_and_exclusions_are_respected(opened: Opened, tmp_path: Path) -> None:
     for number in range(60):
         add(opened, number)
-    searcher = Searcher(opened.catalogue, tmp_path)
+    searcher = make_searcher(opened, tmp_path)
     query, weights = make_blocks(98), {"log-hks": 0.0, "colour-curves": 2.5}
     method = with_weights(METHODS["fused"], weights)
     everything = brute_force(opened, method, query, 60)
@@ -56,7 +62,7 @@ def test_own_weights_and_exclusions_are_respected(opened: Opened, tmp_path: Path
 
 
 def test_changes_by_another_catalogue_are_seen_by_the_next_search(opened: Opened, tmp_path: Path) -> None:
-    searcher = Searcher(opened.catalogue, tmp_path / "index")
+    searcher = make_searcher(opened, tmp_path / "index")
     other = open_catalogue(tmp_path)
     assert agrees(searcher, opened)  # empty
     for number in range(12):
@@ -85,7 +91,7 @@ def add_in_process(folder: Path, numbers: list[int]) -> None:
 
 def test_changes_by_another_process_are_seen_by_the_next_search(opened: Opened, tmp_path: Path) -> None:
     add(opened, 0)
-    searcher = Searcher(opened.catalogue, tmp_path / "index")
+    searcher = make_searcher(opened, tmp_path / "index")
     assert agrees(searcher, opened)
     with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as processes:
         processes.submit(add_in_process, tmp_path, [1, 2, 3]).result()
@@ -93,11 +99,11 @@ def test_changes_by_another_process_are_seen_by_the_next_search(opened: Opened, 
     assert len(searcher.search("hks", make_blocks(1), 9)) == 4
 
 
-@only_on_sqlite
+@only_in_memory_on_sqlite
 def test_a_searcher_with_nothing_new_costs_one_select(opened: Opened, tmp_path: Path) -> None:
     for number in range(5):
         add(opened, number)
-    searcher = Searcher(opened.catalogue, tmp_path / "index")
+    searcher = make_searcher(opened, tmp_path / "index")
     searcher.search("fused", make_blocks(1), 3)
     statements: list[str] = []
     event.listen(opened.engine, "checkout", lambda taken, *_: taken.set_trace_callback(statements.append))
@@ -108,12 +114,13 @@ def test_a_searcher_with_nothing_new_costs_one_select(opened: Opened, tmp_path: 
 def saved_index(opened: Opened, folder: Path, n_shapes: int = 40) -> Path:
     for number in range(n_shapes):
         add(opened, number)
-    searcher = Searcher(opened.catalogue, folder)
+    searcher = make_searcher(opened, folder)
     assert agrees(searcher, opened)
     searcher.close()
     return folder / "fused.vectors"
 
 
+@only_in_memory
 def test_a_saved_index_is_used_again_and_completed(
     opened: Opened, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -130,7 +137,7 @@ def test_a_saved_index_is_used_again_and_completed(
             yield shape_id, blocks
 
     monkeypatch.setattr(opened.catalogue, "block_rows", watched)
-    searcher = Searcher(opened.catalogue, tmp_path / "index")
+    searcher = make_searcher(opened, tmp_path / "index")
     answer = searcher.search("fused", make_blocks(99), 50)
     assert read == ["s0003", "s0090"]  # all others came from the file
     assert answer == brute_force(opened, METHODS["fused"], make_blocks(99), 50)
@@ -141,6 +148,7 @@ def flipped(data: bytes) -> bytes:
     return data[:middle] + bytes([data[middle] ^ 1]) + data[middle + 1 :]
 
 
+@only_in_memory
 @pytest.mark.parametrize(
     "damage",
     [flipped, lambda data: data[:-4], lambda data: data[:20], lambda _: b"", lambda data: data + b"\0"],
@@ -152,7 +160,7 @@ def test_a_damaged_index_is_noticed_built_anew_and_replaced(
     path = saved_index(opened, tmp_path / "index")
     whole = path.read_bytes()
     path.write_bytes(damage(whole))
-    searcher = Searcher(opened.catalogue, tmp_path / "index")
+    searcher = make_searcher(opened, tmp_path / "index")
     assert agrees(searcher, opened, 50)
     assert path.read_bytes() == whole
 
@@ -164,11 +172,11 @@ def test_an_index_of_another_library_is_not_believed(opened: Opened, tmp_path: P
     for number in range(20):
         add(other, 5 * number)  # the same number of shapes and the same revision
     assert other.catalogue.revision() == opened.catalogue.revision()
-    assert agrees(Searcher(other.catalogue, tmp_path / "index"), other, 50)
+    assert agrees(make_searcher(other, tmp_path / "index"), other, 50)
     other.engine.dispose()
 
 
-@only_on_sqlite
+@only_in_memory_on_sqlite
 def test_an_index_newer_than_a_restored_catalogue_is_not_believed(tmp_path: Path) -> None:
     """The catalogue is put back from a copy, then grows beyond the index's revision in another way."""
     lost = open_catalogue(tmp_path)
@@ -177,7 +185,7 @@ def test_an_index_newer_than_a_restored_catalogue_is_not_believed(tmp_path: Path
     lost.engine.dispose()
     copy = (tmp_path / "catalogue.db").read_bytes()  # closed: nothing is left in the write-ahead log
     lost = open_catalogue(tmp_path)
-    saved_index_of = Searcher(lost.catalogue, tmp_path / "index")
+    saved_index_of = make_searcher(lost, tmp_path / "index")
     for number in range(5, 9):
         add(lost, number)
     lost.catalogue.remove("s0001")
@@ -188,13 +196,13 @@ def test_an_index_newer_than_a_restored_catalogue_is_not_believed(tmp_path: Path
     restored = open_catalogue(tmp_path)
     for number in range(20, 30):
         add(restored, number)
-    assert agrees(Searcher(restored.catalogue, tmp_path / "index"), restored, 50)
+    assert agrees(make_searcher(restored, tmp_path / "index"), restored, 50)
     restored.engine.dispose()
 
 
 def test_another_vocabulary_makes_every_index_anew(opened: Opened, tmp_path: Path) -> None:
     saved_index(opened, tmp_path / "index", 20)
-    running = Searcher(opened.catalogue, tmp_path / "index")
+    running = make_searcher(opened, tmp_path / "index")
     before = running.search("fused", make_blocks(3), 20, vocabulary_id=opened.vocabulary_id)
     new = make_vocabulary(2)
     opened.catalogue.add_vocabulary(new)
@@ -208,14 +216,14 @@ def test_another_vocabulary_makes_every_index_anew(opened: Opened, tmp_path: Pat
     with pytest.raises(VocabularyChanged):
         running.search("fused", make_blocks(3), 20, vocabulary_id=opened.vocabulary_id)
     assert running.search("fused", make_blocks(3), 20, vocabulary_id=new.id) != before
-    for searcher in (running, Searcher(opened.catalogue, tmp_path / "index")):
+    for searcher in (running, make_searcher(opened, tmp_path / "index")):
         assert agrees(searcher, opened, 50)
 
 
 def test_searching_while_others_write_is_safe_and_never_behind(opened: Opened, tmp_path: Path) -> None:
     for number in range(40):
         add(opened, number)
-    searcher = Searcher(opened.catalogue, tmp_path / "index")
+    searcher = make_searcher(opened, tmp_path / "index")
     writing = threading.Event()
     writing.set()
 
@@ -248,15 +256,16 @@ def test_searching_while_others_write_is_safe_and_never_behind(opened: Opened, t
 
 
 def test_searchers_of_several_processes_share_a_folder(opened: Opened, tmp_path: Path) -> None:
-    first, second = (Searcher(opened.catalogue, tmp_path / "index") for _ in range(2))
+    first, second = (make_searcher(opened, tmp_path / "index") for _ in range(2))
     for number in range(10):
         add(opened, number)
         assert agrees(first, opened)
         assert agrees(second, opened)
         (first if number % 2 else second).save()
-    assert agrees(Searcher(opened.catalogue, tmp_path / "index"), opened, 50)
+    assert agrees(make_searcher(opened, tmp_path / "index"), opened, 50)
 
 
+@only_in_memory
 def test_a_full_disk_costs_no_answer(opened: Opened, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for number in range(5):
         add(opened, number)
@@ -264,8 +273,8 @@ def test_a_full_disk_costs_no_answer(opened: Opened, tmp_path: Path, monkeypatch
     def full(*_: object) -> int:
         raise StorageFull("full")
 
-    monkeypatch.setattr(FileStore, "write", full)
-    searcher = Searcher(opened.catalogue, tmp_path / "index")
+    monkeypatch.setattr(LocalFiles, "write", full)
+    searcher = make_searcher(opened, tmp_path / "index")
     assert agrees(searcher, opened)
     with pytest.raises(StorageFull):  # who asks for saving is told
         searcher.save()
@@ -275,14 +284,14 @@ def test_shapes_that_lack_a_block_are_left_out(opened: Opened, tmp_path: Path) -
     add(opened, 1)
     blocks = make_blocks(2)
     add_ready(opened, "half", {}, {"hks-0": blocks["hks-0"]})
-    searcher = Searcher(opened.catalogue, tmp_path)
+    searcher = make_searcher(opened, tmp_path)
     assert {shape_id for shape_id, _ in searcher.search("hks", blocks, 9)} == {"half", "s0001"}
     assert {shape_id for shape_id, _ in searcher.search("fused", blocks, 9)} == {"s0001"}
 
 
 def test_wrong_questions_are_named(opened: Opened, tmp_path: Path) -> None:
     add(opened, 1)
-    searcher = Searcher(opened.catalogue, tmp_path)
+    searcher = make_searcher(opened, tmp_path)
     blocks = make_blocks(1)
     with pytest.raises(UnknownMethod, match="fused"):
         searcher.search("best", blocks, 5)

@@ -11,8 +11,9 @@ from service.library import Library
 from service.retrieval import accept_upload
 from tests.fakes import coloured_triangle
 from tests.serving import open_fake_library, settings_for
+from tests.storages import on_disk, only_folders
 
-pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+pytestmark = pytest.mark.usefixtures("kept")  # on SQLite and on PostgreSQL, and with files in a bucket
 
 
 @pytest.fixture
@@ -40,9 +41,10 @@ def test_young_files_may_belong_to_an_upload_under_way(library: Library) -> None
     assert list(library.files.keys()) == ["uploads/under-way/0"]
 
 
+@only_folders
 def test_what_file_managers_leave_behind_stops_no_sweep_and_is_left_alone(library: Library) -> None:
     library.files.put("uploads/killed/0", b"never got a row")
-    strange = library.files.path("uploads") / ".DS_Store"
+    strange = on_disk(library.files).path("uploads") / ".DS_Store"
     strange.write_bytes(b"of a file manager")
     assert sweep(library, older_than=0) == 1
     assert strange.exists()

@@ -38,7 +38,7 @@ def add_ready(library: Library, level: int) -> str:
     accept_upload(library, receive_paths({"a.ply": path}))
     job = library.queue.claim("test", 60)
     assert job is not None
-    description = describe_quickly({"a.ply": path}, False, library.parameters, library.limits)
+    description = describe_quickly({"a.ply": path.read_bytes()}, False, library.parameters, library.limits)
     return record_description(library, job, description).id
 
 
@@ -90,7 +90,7 @@ def test_a_description_made_during_a_change_is_recorded_in_the_new_words(library
     shape, _ = accept_upload(library, receive_paths({"a.ply": path}))
     job = library.queue.claim("test", 60)
     assert job is not None
-    description = describe_quickly({"a.ply": path}, False, library.parameters, library.limits)
+    description = describe_quickly({"a.ply": path.read_bytes()}, False, library.parameters, library.limits)
     change = threading.Thread(
         target=adopt_vocabulary, args=(library, fake_vocabulary(seed=5), lambda *_: None)
     )

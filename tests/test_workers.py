@@ -2,20 +2,20 @@
 
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from index.errors import CatalogueBusy, StorageFull
+from index.errors import CatalogueBusy, StorageFull, StorageUnreachable
 from index.jobs import Job
 from index.shapes import Shape, Status
-from service.app import child_limits
 from service.intake.submissions import receive_paths
 from service.jobs.child import ChildError
 from service.jobs.ended import EndedJob, JobWatch
+from service.jobs.executors import child_limits
 from service.jobs.pool import ProcessPerJob
 from service.jobs.workers import Attempt, Worker
 from service.library import Library
@@ -24,7 +24,7 @@ from tests.fakes import coloured_triangle, describe_quickly
 from tests.serving import open_fake_library, settings_for, wait_until
 from worker.errors import Code, MeshError
 
-pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
+pytestmark = pytest.mark.usefixtures("kept")  # on SQLite and on PostgreSQL, and with files in a bucket
 
 
 @pytest.fixture
@@ -65,8 +65,8 @@ class Working:
         self.worker = Worker(
             library,
             executor,
-            slots=2,
             **{
+                "slots": 2,
                 "describe": describe_quickly,
                 "observe": lambda outcome, _: self.outcomes.append(outcome),
                 **options,
@@ -232,10 +232,10 @@ def test_the_watch_hears_of_claims_ends_and_stages(library: Library) -> None:
         def ended(self, job: EndedJob) -> None:
             self.ends.append(job)
 
-    def describe(paths: dict[str, Path], *args: Any) -> Any:
-        if "b.ply" in paths:
+    def describe(files: Mapping[str, bytes], *args: Any) -> Any:
+        if "b.ply" in files:
             raise MeshError(Code.ZERO_AREA, "nothing is left")
-        return describe_quickly(paths, *args)
+        return describe_quickly(files, *args)
 
     good, bad = accept(library, "a.ply"), accept(library, "b.ply", coloured_triangle(9))
     heard = Heard()
@@ -253,9 +253,9 @@ def test_a_shape_removed_while_it_is_described_leaves_no_files(library: Library)
     removed = accept(library, "a.ply")
     other = accept(library, "b.ply", coloured_triangle(9))
 
-    def describe(paths: dict[str, Path], *args: Any) -> Any:
-        description = describe_quickly(paths, *args)
-        if "a.ply" in paths:
+    def describe(files: Mapping[str, bytes], *args: Any) -> Any:
+        description = describe_quickly(files, *args)
+        if "a.ply" in files:
             remove_shape(library, removed)
         return description
 
@@ -269,7 +269,10 @@ def test_a_full_disk_delays_a_result_and_loses_nothing(
     library: Library, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shape_id = accept(library, "a.ply")
-    put, refusals = library.files.put, [StorageFull("full"), CatalogueBusy("locked")]
+    put, refusals = (
+        library.files.put,
+        [StorageFull("full"), CatalogueBusy("locked"), StorageUnreachable("away")],
+    )
 
     def sometimes_full(key: str, data: bytes) -> None:
         if refusals:
@@ -298,13 +301,13 @@ def test_an_error_of_the_queue_does_not_end_the_worker(
         assert settled(library, shape_id).status == Status.READY
 
 
-@pytest.mark.parametrize("library", [60.0], indirect=True)  # nobody's lease runs out on a busy machine
+@pytest.mark.parametrize("library", [60.0], indirect=True)  # a lease that no busy machine lets run out
 def test_two_workers_never_describe_the_same_shape_twice(library: Library) -> None:
     counted: list[str] = []
 
-    def describe(paths: dict[str, Path], *args: Any) -> Any:
-        counted.append(next(iter(paths)))
-        return describe_quickly(paths, *args)
+    def describe(files: Mapping[str, bytes], *args: Any) -> Any:
+        counted.append(next(iter(files)))
+        return describe_quickly(files, *args)
 
     ids = [accept(library, f"{number}.ply", coloured_triangle(number)) for number in range(12)]
     with Working(library, SameThread(), describe=describe), Working(library, SameThread(), describe=describe):

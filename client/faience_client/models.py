@@ -110,6 +110,14 @@ class RememberedQuery(Query):
     expires_at: datetime
 
 
+class Renewal(_Model):
+    """Shapes that are described anew for a new version of the service."""
+
+    done: int
+    failed: int
+    total: int
+
+
 class Answer(_Model):
     """A ranked answer, nearest first."""
 
@@ -117,6 +125,8 @@ class Answer(_Model):
     took_ms: float
     results: list[Result]
     query: Query | None = None
+    partly: Renewal | None = None  # with how many it was compared, while all are described anew
+    exact: bool = True  # whether no nearer shape can be missing
 
 
 class Block(_Model):
@@ -189,6 +199,7 @@ class Queue(_Model):
     finished: Finished
     median_seconds: float | None
     expected_seconds: float | None
+    renewal: Renewal | None = None
 
 
 class Pair(_Model):

@@ -1,18 +1,14 @@
 """Which files a shape needs."""
 
-from collections.abc import Iterator
-
 from index.dumping import Belongings
 from index.files import FileStore
 from index.shapes import StoredFile
-from service.storage import PREVIEW, SIGNATURES, THUMBNAIL, derived_key
-
-MADE = (THUMBNAIL, PREVIEW, SIGNATURES)  # of every shape that is ready
+from service.storage import MADE, derived_key
 
 
 def needed_files(shape: Belongings) -> dict[str, StoredFile | None]:
     """Return the keys without which a shape is not whole, with what the catalogue knows of the content."""
-    made = [derived_key(shape.id, name) for name in MADE] if shape.ready else []
+    made = [derived_key(shape.id, name, shape.made_in) for name in MADE] if shape.ready else []
     return {**{file.key: file for file in shape.files}, **dict.fromkeys(made)}
 
 
@@ -25,10 +21,3 @@ def present_files(files: FileStore, shape: Belongings) -> dict[str, StoredFile |
 def made_prefix(shape_id: str) -> str:
     """Return how the keys of what was made for a shape begin."""
     return derived_key(shape_id, "")
-
-
-def pieces_of(files: FileStore, key: str, size: int = 1 << 20) -> Iterator[bytes]:
-    """Yield a file's content; OSError where it cannot be read."""
-    with files.path(key).open("rb") as stream:
-        while piece := stream.read(size):
-            yield piece

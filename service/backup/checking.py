@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from index.errors import DamagedExport
-from index.files import FileStore
+from index.files import check_key
 from index.portable import LONGEST_LINE
 from index.staging import Staging
 from service.backup.layout import FILES, HEADER, LONGEST_HEADER, ROWS, TABLES, Header, Part, part_of
@@ -20,9 +20,7 @@ _LONGEST_SUM = 1 << 12  # bytes of a line of SHA256SUMS
 
 
 @contextmanager
-def checked_archive(
-    file: BinaryIO, folder: Path, members: Members, files: FileStore, told: Told
-) -> Iterator[Staging]:
+def checked_archive(file: BinaryIO, folder: Path, members: Members, told: Told) -> Iterator[Staging]:
     """Read a whole archive; yield its rows, in a catalogue of this version's schema.
 
     Parameters
@@ -31,8 +29,6 @@ def checked_archive(
         Where the rows may lie meanwhile.
     members : Members
         Empty; afterwards it lists the archive.
-    files : FileStore
-        Knows which keys there can be.
 
     Raises
     ------
@@ -43,7 +39,7 @@ def checked_archive(
         complete = False
         for stream in streams:
             complete = part_of(stream.name) is Part.SUMS
-            _take(stream, staging, members, files)
+            _take(stream, staging, members)
         if not complete:
             raise DamagedExport("the export ends before its checksums: it was cut")
         staging.finish()
@@ -69,7 +65,7 @@ def _header(stream: MemberStream | None, members: Members) -> Header:
     return header
 
 
-def _take(stream: MemberStream, staging: Staging, members: Members, files: FileStore) -> None:
+def _take(stream: MemberStream, staging: Staging, members: Members) -> None:
     part = part_of(stream.name)
     if part is Part.SUMS:
         _compare(stream, members)
@@ -77,7 +73,7 @@ def _take(stream: MemberStream, staging: Staging, members: Members, files: FileS
     if part is Part.TABLE:
         staging.load(stream.name.removeprefix(TABLES).removesuffix(ROWS), stream.lines(LONGEST_LINE))
     else:
-        _check_key(files, stream.name.removeprefix(FILES))
+        _check_key(stream.name.removeprefix(FILES))
     _note(stream, members)
 
 
@@ -86,9 +82,9 @@ def _note(stream: MemberStream, members: Members) -> None:
     members.add(stream.name, Written(size=stream.size, sha256=stream.digest()))
 
 
-def _check_key(files: FileStore, key: str) -> None:
+def _check_key(key: str) -> None:
     try:
-        files.path(key)
+        check_key(key)
     except ValueError:
         raise DamagedExport(f"the export holds a file under {key!r:.100}, which is no key of ours") from None
 

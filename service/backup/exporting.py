@@ -8,10 +8,10 @@ from importlib.metadata import version
 from pathlib import Path
 
 from index.dumping import Belongings, Moment, one_moment
-from index.errors import DamagedExport
+from index.errors import DamagedExport, FileMissing
 from index.portable import line_of
 from index.shapes import StoredFile
-from service.backup.belongings import pieces_of, present_files
+from service.backup.belongings import present_files
 from service.backup.layout import FORMAT, HEADER, Header, file_member, table_member
 from service.backup.summary import Damage, Summary
 from service.backup.writing import ArchiveWriter, writing_archive
@@ -114,7 +114,7 @@ def _add_file(
         written = archive.add(file_member(key), _readable(library, key))
     except Unreadable as error:
         current = library.catalogue.get_many([shape.id]).get(shape.id)
-        if current is None or current.revision != shape.revision:
+        if current is None or (current.revision, current.made_in) != (shape.revision, shape.made_in):
             raise ShapeChanged from None
         return str(error)
     if known is not None and (written.sha256, written.size) != (known.sha256, known.size):
@@ -124,8 +124,8 @@ def _add_file(
 
 def _readable(library: Library, key: str) -> Iterator[bytes]:
     try:
-        yield from pieces_of(library.files, key)
-    except FileNotFoundError:
+        yield from library.files.pieces(key)
+    except FileMissing:
         raise Unreadable("file_missing") from None
     except OSError:  # a failing disk, or rights that are missing
         raise Unreadable("file_unreadable") from None

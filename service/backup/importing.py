@@ -2,18 +2,17 @@
 
 import errno
 import fcntl
-import os
 import shutil
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import IO, BinaryIO, cast
+from typing import BinaryIO, cast
 
 from index.dumping import one_moment
 from index.errors import CatalogueBusy, DamagedExport
-from index.files import FileStore
+from index.files import FileStore, check_key
 from index.replacing import check_empty, replace_library
 from index.staging import Staging
 from service.backup.belongings import made_prefix, needed_files
@@ -28,7 +27,6 @@ from service.library import Library
 from service.storage import derived_key
 
 _LONG = HOUR / 2  # seconds; well before files count as left over
-_PIECE = 1 << 20  # bytes read at once
 _IMPOSSIBLE = frozenset({errno.ENAMETOOLONG, errno.ENOTDIR, errno.EISDIR, errno.EEXIST})
 
 Progress = Callable[[str, int, int], None]  # what is done, bytes of the archive so far, of how many
@@ -50,7 +48,7 @@ def import_library(library: Library, path: Path, progress: Progress = lambda *_:
 
     Raises
     ------
-    LibraryNotEmpty, DamagedExport, NewerFormat, StorageFull, CatalogueBusy
+    LibraryNotEmpty, DamagedExport, NewerFormat, StorageFull, StorageUnreachable, CatalogueBusy
         Nothing was changed.
     """
     _check_empty(library)
@@ -66,8 +64,8 @@ def import_library(library: Library, path: Path, progress: Progress = lambda *_:
         Members(folder) as members,
     ):
         archive = cast("BinaryIO", file)
-        with checked_archive(archive, folder, members, library.files, told("Checking")) as staging:
-            counted = _compare(staging, members, library.files)
+        with checked_archive(archive, folder, members, told("Checking")) as staging:
+            counted = _compare(staging, members)
             files = _bring_in(library, archive, members, staging, told("Importing"))
     return Summary(shapes=counted.shapes, files=files, bytes=size, damaged=counted.damaged)
 
@@ -87,7 +85,7 @@ def _alone(library: Library) -> Iterator[None]:
         yield
 
 
-def _compare(staging: Staging, members: Members, files: FileStore) -> Counted:
+def _compare(staging: Staging, members: Members) -> Counted:
     """Find each shape's files.
 
     Raises
@@ -98,7 +96,7 @@ def _compare(staging: Staging, members: Members, files: FileStore) -> Counted:
     shapes, damaged = 0, []
     with one_moment(staging.engine) as moment:
         for shapes, shape in enumerate(moment.shapes(), start=1):  # noqa: B007 - the last number is the count
-            _check_id(files, shape.id)
+            _check_id(shape.id)
             for key, known in needed_files(shape).items():
                 found = members.claim(key)
                 if found is None:
@@ -112,9 +110,9 @@ def _compare(staging: Staging, members: Members, files: FileStore) -> Counted:
     return Counted(shapes=shapes, damaged=tuple(damaged))
 
 
-def _check_id(files: FileStore, shape_id: str) -> None:
+def _check_id(shape_id: str) -> None:
     try:
-        files.path(derived_key(shape_id, "x"))
+        check_key(derived_key(shape_id, "x"))
     except ValueError:
         raise DamagedExport(f"{shape_id!r:.100} is no id of a shape") from None
 
@@ -157,12 +155,8 @@ def _put_files(
 
 
 def _put_file(files: FileStore, key: str, stream: MemberStream) -> None:
-    def fill(file: IO[bytes]) -> int:
-        shutil.copyfileobj(stream, file, _PIECE)
-        return stream.size
-
     try:
-        files.write(key, fill, flushed=False)
+        files.put_stream(key, stream, flushed=False)
     except OSError as error:
         if error.errno in _IMPOSSIBLE:
             raise DamagedExport(f"no file can lie under {key!r:.100}") from None
@@ -171,17 +165,9 @@ def _put_file(files: FileStore, key: str, stream: MemberStream) -> None:
 
 def _renew(files: FileStore, archive: BinaryIO, members: Members) -> None:
     """Make the files young again: a worker beside us sweeps old ones that no row needs yet."""
-    swept = {key for key in _keys(members) if not _touched(files, key)}
+    swept = {key for key in _keys(members) if not files.touch(key)}
     if swept:
         _put_files(files, archive, members, lambda _: None, swept.__contains__)
-
-
-def _touched(files: FileStore, key: str) -> bool:
-    try:
-        os.utime(files.path(key))
-    except FileNotFoundError:
-        return False
-    return True
 
 
 def _take_back(library: Library, members: Members) -> None:

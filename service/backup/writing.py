@@ -10,8 +10,8 @@ from tempfile import TemporaryFile
 from typing import IO, BinaryIO
 from uuid import uuid4
 
-from index.files import flush_folder
 from index.full_disk import full_disk_named
+from index.local_files import flush_folder
 from service.backup.layout import SUMS
 from service.backup.tar import BLOCK, END, Member, header_of, padding_of
 

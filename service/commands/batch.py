@@ -44,7 +44,7 @@ class Waiting:
 
 
 def index_sources(
-    library: Library, sources: Iterable[Source], allow_untextured: bool, helper: Helper, most: int
+    library: Library, sources: Iterable[Source], allow_untextured: bool, helper: Helper, ahead: int
 ) -> Iterator[Outcome]:
     """Bring every mesh into the library, in parallel through its queue.
 
@@ -52,8 +52,9 @@ def index_sources(
     ----------
     helper : Helper
         The worker beside this command.
-    most : int
-        Shapes that wait at the same time; so few are left over when the user stops the command.
+    ahead : int
+        Shapes that wait at the same time, for each that is described; so few are left over when the user
+        stops the command.
 
     Yields
     ------
@@ -66,7 +67,7 @@ def index_sources(
         for mesh in source.meshes:
             yield from _accept(library, companions, mesh, allow_untextured, waiting)
             helper.wake()
-            yield from _settled(library, waiting, helper, most)
+            yield from _settled(library, waiting, helper, ahead * max(helper.slots(), 1))
     yield from _settled(library, waiting, helper, 0)
 
 

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from service.commands.failures import plain_failures
-from service.commands.options import DATA_DIR, DataDir, Json, Workers
+from service.commands.options import DATA_DIR, Cluster, DataDir, Json, Workers
 
 Paths = Annotated[list[Path], typer.Argument(help="Files (.ply, .obj, .zip) and folders of them.")]
 AllowUntextured = Annotated[
@@ -18,6 +18,7 @@ def index(
     paths: Paths,
     data_dir: DataDir = DATA_DIR,
     workers: Workers = None,
+    cluster: Cluster = None,
     allow_untextured: AllowUntextured = False,
     json: Json = False,
 ) -> None:
@@ -28,5 +29,7 @@ def index(
     """
     with plain_failures():
         from service.commands.indexing import index_paths  # heavy; --help must not wait for it
+        from service.commands.opening import settings_for
 
-        index_paths(paths, data_dir, workers, allow_untextured, json)
+        settings = settings_for(data_dir, workers=workers, cluster=cluster)
+        index_paths(paths, settings, allow_untextured, json)

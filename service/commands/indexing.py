@@ -13,7 +13,7 @@ from rich.table import Table
 from service.commands.batch import Outcome, Result, index_sources
 from service.commands.discovery import Source, find_sources
 from service.commands.failures import STOPPED, CommandFailed
-from service.commands.opening import opened, settings_for, working
+from service.commands.opening import opened, working
 from service.commands.progress import progress_bar
 from service.settings import Settings
 
@@ -21,9 +21,7 @@ SHOWN = 20  # refusals in the summary; --json has all
 AHEAD = 8  # shapes that wait, for each worker
 
 
-def index_paths(
-    paths: Sequence[Path], data_dir: Path, workers: int | None, allow_untextured: bool, as_json: bool
-) -> None:
+def index_paths(paths: Sequence[Path], settings: Settings, allow_untextured: bool, as_json: bool) -> None:
     """Index meshes, report each, sum up.
 
     Raises
@@ -37,7 +35,7 @@ def index_paths(
         raise CommandFailed(f"there is no .ply, .obj or .zip in {', '.join(map(str, paths))}")
     start = time.perf_counter()
     try:
-        outcomes = _run(sources, total, settings_for(data_dir, workers=workers), allow_untextured, as_json)
+        outcomes = _run(sources, total, settings, allow_untextured, as_json)
     except KeyboardInterrupt:
         raise CommandFailed("stopped; the same command goes on from here", STOPPED) from None
     _sum_up(outcomes, time.perf_counter() - start, as_json)
@@ -51,8 +49,7 @@ def _run(
         library = stack.enter_context(opened(settings, make=True))
         helper = stack.enter_context(working(library))
         advance = stack.enter_context(progress_bar("Indexing", total))
-        most = AHEAD * max(settings.workers, 1)
-        for outcome in index_sources(library, sources, allow_untextured, helper, most):
+        for outcome in index_sources(library, sources, allow_untextured, helper, AHEAD):
             outcomes.append(outcome)
             advance()
             if as_json:

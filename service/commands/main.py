@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 from typer.exceptions import TyperException
 
+from service.commands.compute import compute
 from service.commands.duplicates import duplicates
 from service.commands.evaluate import evaluate
 from service.commands.export import export
@@ -28,7 +29,7 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,  # a defect keeps its plain traceback, for a report
 )
-for command in (serve, worker, index, search, duplicates, evaluate, export):
+for command in (serve, worker, compute, index, search, duplicates, evaluate, export):
     app.command()(command)
 app.command("import")(import_file)
 app.command("learn-vocabulary")(learn_vocabulary)

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from service.app import child_limits
 from service.commands.failures import CommandFailed
+from service.jobs.executors import child_limits, start_computing
 from service.jobs.pool import ProcessPerJob
 from service.jobs.workers import Worker, process_name
 from service.library import Library
@@ -21,6 +21,7 @@ class Helper:
 
     wake: Callable[[], None]  # tells it of a new job
     settled: threading.Event  # set whenever it has ended a job
+    slots: Callable[[], int]  # jobs that it does at the same time, now
 
 
 def settings_for(data_dir: Path, **changes: Any) -> Settings:
@@ -64,20 +65,20 @@ def working(library: Library) -> Iterator[Helper]:
 
     Jobs that are not finished at the end go back to the queue.
     """
-    with pool_for(library.settings) as pool:
-        settled = threading.Event()
-        worker = Worker(
-            library,
-            pool,
-            slots=max(library.settings.workers, 1),
-            name=process_name(),
-            observe=lambda *_: settled.set(),
-        )
-        thread = threading.Thread(target=worker.run, name="worker")
-        thread.start()
-        try:
-            yield Helper(wake=worker.wake, settled=settled)
-        finally:
-            worker.stop()
-            pool.shutdown(cancel_futures=True)
-            thread.join()
+    computing = start_computing(library.settings, max(library.settings.workers, 1))
+    settled = threading.Event()
+    worker = Worker(
+        library,
+        computing.executor,
+        slots=computing.slots,
+        name=process_name(),
+        observe=lambda *_: settled.set(),
+    )
+    thread = threading.Thread(target=worker.run, name="worker")
+    thread.start()
+    try:
+        yield Helper(wake=worker.wake, settled=settled, slots=computing.slots)
+    finally:
+        worker.stop()
+        computing.executor.shutdown(cancel_futures=True)
+        thread.join()

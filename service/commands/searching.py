@@ -92,6 +92,9 @@ def _report(path: Path, answer: Answer | Exception, as_json: bool) -> bool:
             raise answer
         say(f"{path}: {message}")
         return False
+    if answer.partly is not None:
+        done, total = answer.partly.done, answer.partly.total
+        say(f"{path}: compared with {done} of {total} shapes; the others are still to be described anew")
     if as_json:
         print(_line(path, answer), flush=True)  # noqa: T201 - this is the command's output
     else:

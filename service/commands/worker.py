@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from service.commands.failures import plain_failures
-from service.commands.options import DATA_DIR, DataDir, Json, Workers
+from service.commands.options import DATA_DIR, Cluster, DataDir, Json, Workers
 from service.commands.reporting import reporter
 
 MetricsPort = Annotated[
@@ -20,6 +20,7 @@ Host = Annotated[str | None, typer.Option("--host", help="Address of the numbers
 def worker(
     data_dir: DataDir = DATA_DIR,
     workers: Workers = None,
+    cluster: Cluster = None,
     metrics_port: MetricsPort = None,
     host: Host = None,
     json: Json = False,
@@ -30,7 +31,9 @@ def worker(
         from service.commands.serve import check_address
         from service.server import run_worker
 
-        settings = settings_for(data_dir, workers=workers, metrics_port=metrics_port, host=host)
+        settings = settings_for(
+            data_dir, workers=workers, cluster=cluster, metrics_port=metrics_port, host=host
+        )
         if settings.metrics_port is not None:
             check_address(settings.host, settings.metrics_port)
         with opened(settings, make=True):
@@ -39,7 +42,8 @@ def worker(
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, lambda *_: stop.set())
         slots = max(settings.workers, 1)
+        how = f"with the cluster at {settings.cluster}" if settings.cluster else f"{slots} meshes at a time"
         report = reporter(json)
-        report(f"Working on the queue of {data_dir}, {slots} meshes at a time; Ctrl-C stops.")
+        report(f"Working on the queue of {data_dir}, {how}; Ctrl-C stops.")
         run_worker(settings, slots, stop, report)
     raise typer.Exit(0)

@@ -2,6 +2,7 @@
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+ONLY_START = "faience.only_start"  # in a scope: the body would cost something and is not sent
 FOUND_OUT = ("route", "path_params")  # what the router notes in a scope
 
 
@@ -25,7 +26,7 @@ class AnswerHead:
                 await send(message)
                 await send({"type": "http.response.body"})
 
-        asked = {**scope, "method": "GET"}
+        asked = {**scope, "method": "GET", ONLY_START: True}
         try:
             await self._app(asked, receive, send_start)
         finally:  # who counts requests looks for them in the scope that came

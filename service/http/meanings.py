@@ -85,6 +85,10 @@ MEANINGS: dict[str, str] = {
     # Of the service.
     "busy": "The service or its catalogue has too much to do. Try again after the seconds in `Retry-After`.",
     "too_busy": "As many searches wait as may. Try again after the seconds in `Retry-After`.",
+    "descriptions_changing": "All shapes are being described anew for a new version; what was asked "
+    "needs that to be done. `/v1/queue` says how far it is.",
+    "newer_descriptions": "A newer version of the service described this library anew, and this one is still "
+    "running. The operator ends or updates it.",
     "vocabulary_changed": "The vocabulary changed during the search. "
     "Try again after the seconds in `Retry-After`.",
     "unready": "A part of the service cannot be used; `parts` says which and why. Send requests elsewhere "
@@ -96,5 +100,7 @@ MEANINGS: dict[str, str] = {
     "Try again in a moment; the operator finds more in the log.",
     "storage_full": "The disk is full; nothing of this request was kept. "
     "Remove shapes, or ask the operator for space.",
+    "storage_unreachable": "The object storage that holds the files does not answer, or refuses. Nothing of "
+    "this request was kept. Try again after the seconds in `Retry-After`; the operator's log says more.",
     "internal_error": "The service has a defect, and its log says more. Try again; tell its operator.",
 }

@@ -7,8 +7,10 @@ from typing import Self
 from pydantic import BaseModel, Field
 
 from index.progress import QueueProgress
+from index.renewals import RenewalProgress
 from index.shapes import Status
 from index.tags import TagPage
+from service.http.renewal_schemas import RenewalModel
 
 
 class TagModel(BaseModel):
@@ -67,23 +69,31 @@ class QueueModel(BaseModel):
     processing: int = Field(description="jobs that a worker has in hand")
     failed: int = Field(description="shapes that could not be described")
     oldest_queued_at: datetime | None = Field(description="when the job that waits longest was queued")
-    workers: list[WorkerModel] = Field(description="those that have jobs in hand")
+    workers: list[WorkerModel] = Field(
+        description="those that have jobs in hand, also of shapes that are described anew"
+    )
     finished: FinishedModel
     median_seconds: float | None = Field(description="that a job took in the last hour; null without any")
     expected_seconds: float | None = Field(
         description="until the queue is empty, at the speed of the last five minutes; null where unknown"
     )
+    renewal: RenewalModel | None = Field(
+        description="how far all shapes are described anew for a new version; null where they are not"
+    )
 
     @classmethod
-    def of(cls, progress: QueueProgress, counts: Mapping[Status, int]) -> Self:
+    def of(
+        cls, progress: QueueProgress, counts: Mapping[Status, int], renewal: RenewalProgress | None
+    ) -> Self:
         """Return the queue as it leaves."""
         return cls(
             queued=progress.queued,
-            processing=sum(progress.held.values()),
+            processing=progress.processing,
             failed=counts[Status.FAILED],
             oldest_queued_at=progress.oldest_queued_at,
             workers=[WorkerModel(name=name, jobs=jobs) for name, jobs in progress.held.items()],
             finished=FinishedModel(last_minute=progress.last_minute, last_hour=progress.last_hour),
             median_seconds=progress.median_seconds,
             expected_seconds=progress.expected_seconds,
+            renewal=None if renewal is None else RenewalModel.of(renewal),
         )

@@ -38,12 +38,14 @@ Reason = type[Exception] | int  # one of the table, or a status with which HTTP 
 EVERY: tuple[Reason, ...] = (400, 408, 431, 503, Exception)  # of any call: no HTTP, too slow, a defect
 KEYS: tuple[Reason, ...] = (Unauthorised, ForeignHost, KeysUnreadable)
 CATALOGUE: tuple[Reason, ...] = (kept.CatalogueBusy, OperationalError)
-READING: tuple[Reason, ...] = (*KEYS, *CATALOGUE, RequestValidationError)
+READING: tuple[Reason, ...] = (*KEYS, *CATALOGUE, kept.StorageUnreachable, RequestValidationError)
 CHANGING: tuple[Reason, ...] = (*READING, CrossOrigin, ReadOnlyKey, kept.StorageFull)
 ONE_SHAPE: tuple[Reason, ...] = (kept.ShapeNotFound,)
 ONE_QUERY: tuple[Reason, ...] = (QueryNotFound,)
 FILE: tuple[Reason, ...] = (kept.FileMissing, 416)
+VERSIONS: tuple[Reason, ...] = (kept.DescriptionsChanging, kept.NewerDescriptions)
 NUMBERS: tuple[Reason, ...] = (
+    *VERSIONS,
     kept.NotReady,
     kept.FileMissing,
     NoVocabulary,
@@ -56,10 +58,12 @@ UPLOAD: tuple[Reason, ...] = (
     *(NoFiles, BadField, BadMetadata, MeshError, TooManyUploads, CrossOrigin, kept.StorageFull),
 )
 QUESTION: tuple[Reason, ...] = (
+    *VERSIONS,
     *(kept.UnknownMethod, kept.BadWeights, UnreadableWeights, kept.VocabularyChanged, NoVocabulary),
     *(kept.FingerprintMismatch, kept.BadBlock, kept.BadVocabulary),
 )
 NEIGHBOURS: tuple[Reason, ...] = (
+    *VERSIONS,
     *(kept.VocabularyChanged, NoVocabulary, kept.FingerprintMismatch, kept.BadBlock, kept.BadVocabulary),
 )
 EXPLAINING: tuple[Reason, ...] = (*QUESTION, kept.FileMissing, kept.NotReady, NotExplained)

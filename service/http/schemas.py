@@ -10,6 +10,7 @@ from index.methods import LooksAt, Method
 from index.shapes import Page, Shape, Status, StoredFile
 from service.http.reasons import FAILURES
 from service.http.relation_schemas import RelationModel
+from service.http.renewal_schemas import RenewalModel
 from service.remembering import Remembered
 from service.retrieval import Answer, Asked, Hit
 from worker.describe import MeshFacts
@@ -190,6 +191,15 @@ class AnswerModel(BaseModel):
     took_ms: float
     results: list[ResultModel]
     query: QueryModel | None = Field(default=None, description="of a mesh that is not kept")
+    partly: RenewalModel | None = Field(
+        default=None,
+        description="while all shapes are described anew for a new version of the service: how many are and "
+        "were compared with the query; null where all were",
+    )
+    exact: bool = Field(
+        default=True,
+        description="whether no nearer shape can be missing; false where a graph is searched (pgvector-hnsw)",
+    )
 
     @classmethod
     def of(cls, answer: Answer) -> Self:
@@ -199,6 +209,8 @@ class AnswerModel(BaseModel):
             took_ms=round(answer.milliseconds, 3),
             results=[ResultModel.of(hit) for hit in answer.hits],
             query=QueryModel.of(answer.query) if answer.query else None,
+            partly=RenewalModel.of(answer.partly) if answer.partly else None,
+            exact=answer.exact,
         )
 
 

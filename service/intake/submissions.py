@@ -34,13 +34,13 @@ class Submission:
     allow_untextured: bool = False  # accept where a named texture is missing
 
     @property
-    def paths(self) -> dict[str, Path]:
-        """Name → where the bytes are."""
-        return {file.name: file.path for file in self.files}
+    def contents(self) -> FilesOnDisk:
+        """Name → bytes, each read when it is asked for."""
+        return FilesOnDisk({file.name: file.path for file in self.files})
 
     def upload(self) -> Upload:
         """Return the form that `worker` reads."""
-        return Upload(files=FilesOnDisk(self.paths), allow_untextured=self.allow_untextured)
+        return Upload(files=self.contents, allow_untextured=self.allow_untextured)
 
     def content_hash(self) -> str:
         """Return the SHA-256 that tells whether the same content is known.

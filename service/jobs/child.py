@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from typing import Any
 
+from index.errors import StorageUnreachable
 from worker.errors import Code, MeshError
 
 
@@ -59,7 +60,7 @@ def _outcome(limits: ChildLimits, function: Callable[..., Any], args: tuple[Any,
         _limit_memory(resource.RLIM_INFINITY)  # room to say so
         limit = limits.memory_bytes // 2**20
         return MeshError(Code.TOO_COMPLEX, f"needs more than the {limit} MiB of memory that one job may use")
-    except MeshError as error:
+    except (MeshError, StorageUnreachable) as error:
         return error
     except Exception:  # noqa: BLE001 - a defect in one computation must not look like a dead process
         return ChildError(traceback.format_exc())

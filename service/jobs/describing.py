@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from index.files import FileStore
 from index.vocabulary import Vocabulary
 from service.quantisation import quantise
 from worker.arrays import SingleArray
@@ -12,7 +13,7 @@ from worker.parameters import Parameters
 from worker.reading.limits import Limits
 from worker.reading.upload import Upload
 
-Describe = Callable[[Mapping[str, Path], bool, Parameters, Limits], Description]
+Describe = Callable[[Mapping[str, bytes], bool, Parameters, Limits], Description]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -24,7 +25,7 @@ class InWords:
 
 
 class FilesOnDisk(Mapping[str, bytes]):
-    """The files of an upload, each read when it is asked for.
+    """The files of an upload that lie on this machine, each read when it is asked for.
 
     Parameters
     ----------
@@ -45,15 +46,39 @@ class FilesOnDisk(Mapping[str, bytes]):
         return len(self._paths)
 
 
-def describe_files(
-    paths: Mapping[str, Path], allow_untextured: bool, parameters: Parameters, limits: Limits
-) -> Description:
-    """Read an upload from its files and describe it.
+class KeptFiles(Mapping[str, bytes]):
+    """The files of a stored shape, each read when it is asked for; small where it is pickled.
 
     Parameters
     ----------
-    paths : Mapping[str, Path]
-        Name as uploaded → where the bytes are.
+    files : FileStore
+        Which a process elsewhere can open, too.
+    keys : Mapping[str, str]
+        Name as uploaded → where the store has it.
+    """
+
+    def __init__(self, files: FileStore, keys: Mapping[str, str]) -> None:
+        self._files, self._keys = files, keys
+
+    def __getitem__(self, name: str) -> bytes:
+        return self._files.get(self._keys[name])
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._keys)
+
+    def __len__(self) -> int:
+        return len(self._keys)
+
+
+def describe_files(
+    files: Mapping[str, bytes], allow_untextured: bool, parameters: Parameters, limits: Limits
+) -> Description:
+    """Describe an upload.
+
+    Parameters
+    ----------
+    files : Mapping[str, bytes]
+        Name as uploaded → bytes, which may be read when they are asked for.
     allow_untextured : bool
         Whether a named texture may be missing.
 
@@ -62,14 +87,14 @@ def describe_files(
     MeshError
         Why it is refused.
     """
-    upload = Upload(files=FilesOnDisk(paths), allow_untextured=allow_untextured)
+    upload = Upload(files=files, allow_untextured=allow_untextured)
     return describe(upload, parameters, limits)
 
 
 def describe_in_words(
     describe: Describe,
     vocabulary: Vocabulary | None,
-    paths: Mapping[str, Path],
+    files: Mapping[str, bytes],
     allow_untextured: bool,
     parameters: Parameters,
     limits: Limits,
@@ -83,7 +108,7 @@ def describe_in_words(
     vocabulary : Vocabulary, optional
         The active one, if there is any.
     """
-    description = describe(paths, allow_untextured, parameters, limits)
+    description = describe(files, allow_untextured, parameters, limits)
     if vocabulary is None or vocabulary.fingerprint != description.fingerprint:
         return description, None
     blocks = quantise(description.signatures, vocabulary)

@@ -29,6 +29,10 @@ class ChildDied(Exception):
         super().__init__(f"the process ended without an answer (exit code {exit_code})")
         self.exit_code = exit_code
 
+    def __reduce__(self) -> tuple[type["ChildDied"], tuple[int | None]]:
+        """Cross process borders with the exit code, not with the message made of it."""
+        return type(self), (self.exit_code,)
+
 
 class PoolStopped(Exception):
     """The pool was shut down before the job ended; the job itself is not to blame."""

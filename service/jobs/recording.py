@@ -1,5 +1,6 @@
 """What becomes of a job: its description is stored, or the reason why there is none."""
 
+import logging
 from dataclasses import asdict
 
 from index.errors import CatalogueError, LeaseLost, ShapeNotFound, VocabularyChanged
@@ -9,8 +10,10 @@ from service.jobs.describing import InWords
 from service.library import Library
 from service.quantisation import quantise
 from service.storage import PREVIEW, THUMBNAIL, derived_key, save_signatures
-from service.vocabularies import active_vocabulary
+from service.vocabularies import own_vocabulary
 from worker.describe import Description
+
+log = logging.getLogger(__name__)
 
 ATTEMPTS = 5  # while vocabularies change
 
@@ -25,6 +28,8 @@ def record_description(
 ) -> Shape:
     """Store what was computed: files first, then everything else in one transaction.
 
+    A shape that is described anew keeps its earlier description beside it, and answers with that.
+
     Parameters
     ----------
     in_words : InWords, optional
@@ -38,9 +43,10 @@ def record_description(
     """
     shape_id = job.shape_id
     try:
-        library.files.put(derived_key(shape_id, THUMBNAIL), description.thumbnail)
-        library.files.put(derived_key(shape_id, PREVIEW), description.preview)
-        save_signatures(library.files, shape_id, description.signatures)
+        made_in = job.fingerprint  # files that answer now are not touched
+        library.files.put(derived_key(shape_id, THUMBNAIL, made_in), description.thumbnail)
+        library.files.put(derived_key(shape_id, PREVIEW, made_in), description.preview)
+        save_signatures(library.files, shape_id, description.signatures, made_in)
         return _record(library, job, description, in_words)
     except (LeaseLost, ShapeNotFound):
         if shape_id not in library.catalogue.get_many([shape_id]):
@@ -48,14 +54,25 @@ def record_description(
         raise
 
 
+def record_failure(library: Library, job: Job, code: str, detail: str) -> None:
+    """Store why there is no description; LeaseLost as for `record_description`."""
+    if job.fingerprint is None:
+        library.catalogue.record_failed(job, code=code, detail=detail)
+    else:
+        library.catalogue.record_not_renewed(job, code=code, detail=detail)
+        log.warning("shape %s cannot be described anew, %s: %s", job.shape_id, code, detail)
+
+
 def _record(library: Library, job: Job, description: Description, in_words: InWords | None) -> Shape:
+    catalogue = library.catalogue
+    record = catalogue.record_ready if job.fingerprint is None else catalogue.record_renewed
     for _ in range(ATTEMPTS):
-        vocabulary = active_vocabulary(library)
+        vocabulary = own_vocabulary(library)
         if in_words is None or in_words.vocabulary_id != vocabulary.id:
             blocks = quantise(description.signatures, vocabulary)
             in_words = InWords(vocabulary_id=vocabulary.id, blocks=blocks)
         try:
-            return library.catalogue.record_ready(
+            return record(
                 job,
                 facts=asdict(description.facts),
                 fingerprint=description.fingerprint,

@@ -6,22 +6,36 @@ import socket
 import threading
 import time
 from collections.abc import Callable
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from concurrent.futures import FIRST_COMPLETED, CancelledError, Executor, Future, wait
 from dataclasses import dataclass, field
 from datetime import datetime
 
-from index.errors import CatalogueBusy, LeaseLost, ShapeNotFound, StorageFull
+from index.errors import (
+    CatalogueBusy,
+    LeaseLost,
+    NewerDescriptions,
+    ShapeNotFound,
+    StorageFull,
+    StorageUnreachable,
+)
 from index.jobs import Job
 from index.vocabulary import Vocabulary
 from service.jobs.child import ChildError
-from service.jobs.describing import Describe, InWords, describe_files, describe_in_words
+from service.jobs.describing import Describe, InWords, KeptFiles, describe_files, describe_in_words
 from service.jobs.ended import RECORDING, EndedJob, JobWatch, now
 from service.jobs.pool import ChildDied, PoolStopped
-from service.jobs.recording import GAVE_UP, UNEXPECTED, UNEXPECTED_DETAIL, record_description
+from service.jobs.recording import (
+    GAVE_UP,
+    UNEXPECTED,
+    UNEXPECTED_DETAIL,
+    record_description,
+    record_failure,
+)
+from service.jobs.renewing import Renewing
 from service.jobs.sweeping import sweep
 from service.jobs.timing import Stage, Timed, timed, timing
 from service.library import Library
-from service.vocabularies import NoVocabulary, active_vocabulary
+from service.vocabularies import NoVocabulary, own_vocabulary
 from service.watching.context import known_as
 from worker.describe import Description
 from worker.errors import MeshError
@@ -61,9 +75,9 @@ class Worker:
     Parameters
     ----------
     executor : Executor
-        `service.jobs.pool.ProcessPerJob`, or that of a cluster which sees the same files.
-    slots : int
-        Jobs at the same time.
+        `service.jobs.pool.ProcessPerJob`, or `service.jobs.cluster.Cluster`.
+    slots : int or callable
+        Jobs at the same time; a callable is asked each time, and none are claimed while it says 0.
     describe : callable
         What a job is; importable by name.
     observe : callable
@@ -77,14 +91,15 @@ class Worker:
         library: Library,
         executor: Executor,
         *,
-        slots: int,
+        slots: int | Callable[[], int],
         name: str = "worker",
         describe: Describe = describe_files,
         observe: Observer = lambda *_: None,
         watch: JobWatch = JobWatch(),  # noqa: B008 - it holds nothing
     ) -> None:
-        self._library, self._executor = library, executor
-        self._slots, self._name = slots, name
+        self._library, self._executor, self._renewing = library, executor, Renewing(library)
+        self._slots = slots if callable(slots) else lambda: slots
+        self._name = name
         self._describe, self._observe, self._watch = describe, observe, watch
         self._running: dict[Future[Described], Attempt] = {}
         self._wake, self._stopping = threading.Event(), threading.Event()
@@ -140,13 +155,22 @@ class Worker:
         self._heartbeat()
 
     def _claim(self) -> None:
-        while len(self._running) < self._slots + AHEAD and not self._stopping.is_set() and self._has_room():
-            job = self._library.queue.claim(self._name, self._library.settings.lease_seconds)
+        fingerprint = self._library.parameters.fingerprint()
+        while self._has_slot() and not self._stopping.is_set() and self._has_room():
+            if not self._renewing.may_describe():
+                return
+            job = self._library.queue.claim(self._name, self._library.settings.lease_seconds, fingerprint)
             if job is None:
+                if self._renewing.go_on():
+                    continue
                 return
             self._watch.claimed(job)
             self._submit(job, tries=1)
             self._heartbeat()  # an executor may take its time
+
+    def _has_slot(self) -> bool:
+        slots = self._slots()
+        return slots > 0 and len(self._running) < slots + AHEAD
 
     def _has_room(self) -> bool:
         """Return whether results can be stored: jobs wait, and lose no attempt, while the disk is full."""
@@ -166,13 +190,13 @@ class Worker:
             shape = library.catalogue.get(job.shape_id)
         except ShapeNotFound:  # removed since the claim
             return
-        paths = {file.name: library.files.path(file.key) for file in shape.files}
+        keys = {file.name: file.key for file in shape.files}
         future = self._executor.submit(
             timed,
             describe_in_words,
             self._describe,
             self._vocabulary(),
-            paths,
+            KeptFiles(library.files, keys),
             shape.allow_untextured,
             library.parameters,
             library.limits,
@@ -181,7 +205,7 @@ class Worker:
 
     def _vocabulary(self) -> Vocabulary | None:
         try:
-            return active_vocabulary(self._library)
+            return own_vocabulary(self._library)
         except NoVocabulary:  # may come while the job runs
             return None
 
@@ -201,11 +225,11 @@ class Worker:
     def _settle_known(self, future: Future[Described], attempt: Attempt) -> None:
         try:
             outcome = self._record(future, attempt)
-        except (LeaseLost, ShapeNotFound) as error:
+        except (LeaseLost, ShapeNotFound, NewerDescriptions) as error:
             log.info("job %s is not ours any more: %s", attempt.job.id, error)
             self._watch.lost(attempt.job, error)
             return
-        except (StorageFull, CatalogueBusy) as error:
+        except (StorageFull, StorageUnreachable, CatalogueBusy) as error:
             log.warning("shape %s waits: %s", attempt.job.shape_id, error)
             self._hand_back(attempt.job)
             self._stopping.wait(self._library.settings.lease_seconds / 3)
@@ -224,7 +248,7 @@ class Worker:
             return "ready"
         except MeshError as error:
             return self._fail(job, error.code, error.detail)
-        except PoolStopped:
+        except (PoolStopped, CancelledError):
             self._hand_back(job)
             return None
         except ChildDied as error:
@@ -242,7 +266,7 @@ class Worker:
         return self._fail(attempt.job, GAVE_UP, f"{reason}, {attempt.tries} times in a row")
 
     def _fail(self, job: Job, code: str, detail: str) -> str:
-        self._library.catalogue.record_failed(job, code=code, detail=detail)
+        record_failure(self._library, job, code, detail)
         return code
 
     def _heartbeat(self) -> None:

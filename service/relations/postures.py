@@ -23,21 +23,25 @@ class Postures:
         self._known: OrderedDict[str, SingleArray | None] = OrderedDict()
         self._lock = Lock()
 
-    def of(self, files: FileStore, shape_id: str, revision: int) -> SingleArray | None:
+    def of(
+        self, files: FileStore, shape_id: str, revision: int, made_in: str | None = None
+    ) -> SingleArray | None:
         """Return the posture of a ready shape; None where it has no preview that can be read.
 
         Parameters
         ----------
         revision : int
             Of the shape's last change: one that was described anew is read anew.
+        made_in : str, optional
+            Folder of its files; see `index.shapes.Shape`.
         """
-        key = f"{shape_id}/{revision}"
+        key = f"{shape_id}/{revision}/{made_in}"
         with self._lock:
             if key in self._known:
                 self._known.move_to_end(key)
                 return self._known[key]
         try:
-            found = posture_of(files.get(derived_key(shape_id, PREVIEW)))
+            found = posture_of(files.get(derived_key(shape_id, PREVIEW, made_in)))
         except FileMissing:  # removed in this moment
             return None
         with self._lock:

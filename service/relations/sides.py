@@ -97,8 +97,8 @@ def _stored_side(library: Library, shape: Shape, blocks: Mapping[str, SingleArra
         blocks=blocks,
         area=float((shape.facts or {}).get("area", 0.0)),
         mesh_files=_meshes((file.name, file.sha256) for file in shape.files),
-        preview=partial(_kept, library, derived_key(shape.id, PREVIEW)),
-        posture=partial(library.postures.of, library.files, shape.id, shape.revision),
+        preview=partial(_kept, library, derived_key(shape.id, PREVIEW, shape.made_in)),
+        posture=partial(library.postures.of, library.files, shape.id, shape.revision, shape.made_in),
     )
 
 

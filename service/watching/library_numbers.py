@@ -21,6 +21,7 @@ class LibraryNumbers(Collector):
         """Yield the numbers of this moment."""
         yield from self._of_shapes()
         yield from self._of_queue()
+        yield from self._of_renewal()
         yield from self._of_indexes()
         yield from self._of_disk()
 
@@ -45,6 +46,18 @@ class LibraryNumbers(Collector):
         yield GaugeMetricFamily("faience_jobs_held", "Jobs that a worker has claimed", value=held)
         workers = len(progress.held)
         yield GaugeMetricFamily("faience_workers_busy", "Workers that hold a job", value=workers)
+
+    def _of_renewal(self) -> Iterator[GaugeMetricFamily]:
+        gauge = GaugeMetricFamily(
+            "faience_renewal_shapes", "Shapes described anew for a new version", labels=("outcome",)
+        )
+        progress = self._library.catalogue.renewal()
+        if progress is not None:
+            waiting = progress.total - progress.done - progress.failed
+            outcomes = {"done": progress.done, "failed": progress.failed, "waiting": waiting}
+            for outcome, number in outcomes.items():
+                gauge.add_metric((outcome,), number)
+        yield gauge
 
     def _of_indexes(self) -> Iterator[GaugeMetricFamily]:
         shown = self._library.searcher.revisions()  # before the catalogue's: a lag is never below zero

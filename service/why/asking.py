@@ -7,7 +7,7 @@ from enum import StrEnum
 from index.methods import DEFAULT_METHOD, method, with_weights
 from index.vocabulary import Vocabulary
 from service.library import Library
-from service.vocabularies import active_vocabulary
+from service.vocabularies import settled_vocabulary
 from service.why.explaining import Explanation, explain
 from service.why.placing import check_places
 from service.why.scale import colours_of
@@ -82,7 +82,7 @@ def explain_remembered(library: Library, query_id: str, other_id: str, question:
 def _explain_near(library: Library, query: AsSide, other_id: str, question: WhyQuestion) -> Explained:
     chosen = with_weights(method(question.method), question.weights or {})
     check_places(chosen)
-    vocabulary = active_vocabulary(library)
+    vocabulary = settled_vocabulary(library)
     names = [block.name for block in chosen.blocks]
     asked, found = query(names, vocabulary), stored_side(library, other_id, names, vocabulary)
     return Explained(explanation=explain(asked, found, chosen, vocabulary), query=asked, result=found)

@@ -75,8 +75,8 @@ def stored_side(library: Library, shape_id: str, names: Collection[str], vocabul
     """
     stored = library.catalogue.query_blocks(shape_id, names)
     _check_words(stored.vocabulary_id, vocabulary)
-    signatures = load_signatures(library.files, shape_id)
-    preview = library.files.get(derived_key(shape_id, PREVIEW))
+    signatures = load_signatures(library.files, shape_id, stored.made_in)
+    preview = library.files.get(derived_key(shape_id, PREVIEW, stored.made_in))
     return side_of(stored.blocks, signatures, preview, names, library.parameters)
 
 

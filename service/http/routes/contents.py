@@ -9,10 +9,10 @@ from starlette.responses import FileResponse, Response
 from index.errors import FileMissing
 from service.descriptors import shape_numbers
 from service.http.dependencies import LibraryPart
+from service.http.kept_files import file_response
 from service.http.openapi import binary, problems
 from service.http.reasons import FILE, NUMBERS, ONE_SHAPE, READING
 from service.http.schemas import DescriptorsModel
-from service.library import Library
 from service.storage import PREVIEW, THUMBNAIL, derived_key
 from worker.pictures.smaller import smaller
 
@@ -21,6 +21,7 @@ router = APIRouter(tags=["contents"])
 WIDEST = 256  # pixels of a thumbnail as it is kept
 Width = Annotated[int, Query(ge=32, le=WIDEST, description="of the picture, in pixels")]
 
+OCTETS, GLB = "application/octet-stream", "model/gltf-binary"
 PRIVATE = {"Cache-Control": "private, max-age=3600"}
 SANDBOX = {"Content-Security-Policy": "default-src 'none'; sandbox", "Cache-Control": "private, no-cache"}
 
@@ -30,18 +31,13 @@ SANDBOX = {"Content-Security-Policy": "default-src 'none'; sandbox", "Cache-Cont
     operation_id="downloadFile",
     summary="A file as it was uploaded",
     response_class=FileResponse,
-    responses=binary("application/octet-stream", "the file") | problems(*READING, *ONE_SHAPE, *FILE),
+    responses=binary(OCTETS, "the file") | problems(*READING, *ONE_SHAPE, *FILE),
 )
-def download(library: LibraryPart, shape_id: str, name: str) -> FileResponse:
+def download(library: LibraryPart, shape_id: str, name: str) -> Response:
     """Return the bytes; browsers are told to save them, never to show them."""
     for file in library.catalogue.get(shape_id).files:
         if file.name == name:
-            return FileResponse(
-                library.files.path(file.key),
-                media_type="application/octet-stream",
-                filename=PurePosixPath(name).name,
-                headers=SANDBOX,
-            )
+            return file_response(library, file.key, OCTETS, SANDBOX, PurePosixPath(name).name)
     raise FileMissing(f"the upload held no file named {name!r}")
 
 
@@ -54,8 +50,8 @@ def download(library: LibraryPart, shape_id: str, name: str) -> FileResponse:
 )
 def thumbnail(library: LibraryPart, shape_id: str, width: Width = WIDEST) -> Response:
     """Return a picture of a ready shape on a transparent background."""
-    library.catalogue.get(shape_id)
-    return picture(library.files.get(derived_key(shape_id, THUMBNAIL)), width)
+    made_in = library.catalogue.get(shape_id).made_in
+    return picture(library.files.get(derived_key(shape_id, THUMBNAIL, made_in)), width)
 
 
 @router.get(
@@ -63,12 +59,15 @@ def thumbnail(library: LibraryPart, shape_id: str, width: Width = WIDEST) -> Res
     operation_id="getPreview",
     summary="A small mesh for viewers",
     response_class=FileResponse,
-    responses=binary("model/gltf-binary", "the mesh, with vertex colours")
-    | problems(*READING, *ONE_SHAPE, *FILE),
+    responses=binary(GLB, "the mesh, with vertex colours") | problems(*READING, *ONE_SHAPE, *FILE),
 )
-def preview(library: LibraryPart, shape_id: str) -> FileResponse:
+def preview(library: LibraryPart, shape_id: str) -> Response:
     """Return a small coloured mesh of a ready shape."""
-    return _derived(library, shape_id, PREVIEW, "model/gltf-binary")
+    made_in = library.catalogue.get(shape_id).made_in
+    try:
+        return file_response(library, derived_key(shape_id, PREVIEW, made_in), GLB, PRIVATE)
+    except FileMissing:
+        raise FileMissing(f"there is no {PREVIEW} before the shape is ready") from None
 
 
 @router.get(
@@ -91,11 +90,3 @@ def descriptors(library: LibraryPart, shape_id: str) -> DescriptorsModel:
 def picture(png: bytes, width: int) -> Response:
     """Return a thumbnail, made smaller where it is wider."""
     return Response(smaller(png, width), media_type="image/png", headers=PRIVATE)
-
-
-def _derived(library: Library, shape_id: str, name: str, media_type: str) -> FileResponse:
-    library.catalogue.get(shape_id)
-    path = library.files.path(derived_key(shape_id, name))
-    if not path.is_file():
-        raise FileMissing(f"there is no {name} before the shape is ready")
-    return FileResponse(path, media_type=media_type, headers=PRIVATE)

@@ -38,4 +38,4 @@ def count_shapes(library: LibraryPart, q: Words = None, tag: TagNames = None) ->
 def queue(library: LibraryPart) -> QueueModel:
     """Return what waits, who works on it, how fast, and when it will be done."""
     catalogue = library.catalogue
-    return QueueModel.of(catalogue.progress(), catalogue.counts())
+    return QueueModel.of(catalogue.progress(), catalogue.counts(), catalogue.renewal())

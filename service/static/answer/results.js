@@ -15,15 +15,19 @@ export function results(answer) {
   const { ranked, refusal } = answer;
   if (refusal) return html`<p role="alert">${refusal.message} <small>(${refusal.code})</small></p>`;
   if (!ranked) return html`<p class="soft">Comparing…</p>`;
-  if (!ranked.results.length) return html`<p>There is nothing to compare with yet: the library holds no other shape. <a href="#/">Add some</a></p>`;
+  if (!ranked.results.length && !ranked.partly) return html`<p>There is nothing to compare with yet: the library holds no other shape. <a href="#/">Add some</a></p>`;
   const farthest = Math.max(...ranked.results.map(({ distance }) => distance));
-  return html`<ol class="cards results">${repeat(ranked.results, ({ shape }) => shape.id,
+  return html`${partly(ranked)}<ol class="cards results">${repeat(ranked.results, ({ shape }) => shape.id,
       (result, place) => card(answer, result, place, farthest))}</ol>
     ${answer.hasMore() ? html`<p><button @click=${() => answer.more()}>Show more</button></p>`
       : html`<p class="soft">${ending(ranked.results.length)}</p>`}`;
 }
 
 const ending = (number) => number >= 1000 ? `The nearest ${count(number)} are shown.` : "These are all the others.";
+
+/** What an answer leaves out while a new version describes all shapes anew. */
+const partly = ({ partly: renewal }) => renewal ? html`<p role="status">A new version describes all shapes anew. This was compared with the
+    ${count(renewal.done)} of ${count(renewal.total)} that are done; ask again later for the others.</p>` : "";
 
 function card(answer, { rank, distance, shape, relation }, place, farthest) {
   return html`<li class="result">

@@ -16,6 +16,14 @@ export function workOf(queue) {
   return `${count(queue.processing)} running, ${count(queue.queued)} waiting; ${left}.`;
 }
 
+/** How far a new version is with all shapes, where one is: "12 of 40 shapes are described anew …" */
+export function renewalOf({ renewal }) {
+  if (!renewal) return null;
+  const lost = renewal.failed ? ` ${many(renewal.failed, "shape")} could not be, and will be listed as failed.` : "";
+  return `${count(renewal.done)} of ${many(renewal.total, "shape")} are described anew for a new version; ` +
+    `searches answer from the earlier descriptions until all are.${lost}`;
+}
+
 /** How fast it goes: "41 finished in the last minute, 1,200 in the last hour; 1.7 seconds each." */
 export function speedOf({ finished, median_seconds: seconds }) {
   if (!finished.last_hour) return "Nothing was finished in the last hour.";

@@ -8,7 +8,7 @@ import { Actions } from "./actions.js";
 import { STATUSES, doubtful, gone, moved } from "./lists.js";
 import { readQueue, watchQueue } from "./queue.js";
 import { section } from "./sections.js";
-import { speedOf, stallOf, workOf } from "./sentences.js";
+import { renewalOf, speedOf, stallOf, workOf } from "./sentences.js";
 
 const PAGE = 30; // shapes of a list, asked for at once
 
@@ -50,6 +50,7 @@ function page(state, actions) {
   return html`<h1 id="jobs" tabindex="-1">Jobs</h1>
     ${problem ? html`<p role="alert">${problem.message} <small>It is asked again every other second.</small></p>` : nothing}
     <p class="work">${workOf(queue)} ${idle ? html`Drop meshes anywhere on this page to add them to the library.` : nothing}</p>
+    ${queue.renewal ? html`<p class="renewal">${renewalOf(queue)}</p>` : nothing}
     <p class="soft">${speedOf(queue)}</p>
     ${stall(stallOf(queue))}
     ${queue.workers.length ? html`<ul class="workers" aria-label="Workers">${queue.workers.map(({ name, jobs }) => html`<li><strong>${name}</strong> holds ${many(jobs, "job")}</li>`)}</ul>` : nothing}

@@ -1,0 +1,141 @@
+"""Taking the oldest free job, in as few statements as can be: each waits for the database's answer.
+
+The statements are made once and have no objects behind their rows, which would cost more than they do.
+"""
+
+from dataclasses import dataclass
+from datetime import datetime
+from enum import Enum
+from typing import Any
+from uuid import uuid4
+
+from sqlalchemy import ColumnElement, Row, bindparam, or_, select, update
+from sqlalchemy.orm import Session
+from sqlalchemy.sql.dml import ReturningUpdate
+
+from index.errors import LeaseLost
+from index.jobs import MAX_ATTEMPTS, Job
+from index.shapes import Status
+from index.tables import JobRow, ShapeRow, StateRow, UtcDateTime
+
+_JOBS, _SHAPES, _STATE = (row.metadata.tables[row.__tablename__] for row in (JobRow, ShapeRow, StateRow))
+_MOMENT = bindparam("moment", type_=UtcDateTime())
+_FREE = or_(_JOBS.c.lease_until.is_(None), _JOBS.c.lease_until < _MOMENT)
+
+
+class Kind(Enum):
+    """What a job is for; all of the first come before any of the second."""
+
+    UPLOAD = "upload"
+    RENEWAL = "renewal"  # a ready shape is described anew, for the parameters with the fingerprint ``mine``
+
+
+_OF: dict[Kind, ColumnElement[bool]] = {
+    Kind.UPLOAD: _JOBS.c.fingerprint.is_(None),
+    Kind.RENEWAL: _JOBS.c.fingerprint == bindparam("mine"),
+}
+_ATTEMPTS = {
+    kind: select(_JOBS.c.attempts, _JOBS.c.fingerprint).where(_FREE, those).order_by(_JOBS.c.id).limit(1)
+    for kind, those in _OF.items()
+}
+
+
+def _take(those: ColumnElement[bool]) -> ReturningUpdate[Any]:
+    oldest = (
+        select(_JOBS.c.id)
+        .where(_FREE, those, _JOBS.c.attempts < MAX_ATTEMPTS)
+        .order_by(_JOBS.c.id)
+        .limit(1)
+        .with_for_update(skip_locked=True)  # SQLite has one writer and leaves this out
+        .scalar_subquery()
+    )
+    # One statement finds and takes: two workers that first looked and then took would double jobs.
+    return (
+        update(_JOBS)
+        .where(_JOBS.c.id == oldest)
+        .values(
+            worker=bindparam("by"),
+            token=bindparam("proof"),
+            claimed_at=_MOMENT,
+            lease_until=bindparam("until", type_=UtcDateTime()),
+            attempts=_JOBS.c.attempts + 1,
+        )
+        .returning(*_JOBS.c)
+    )
+
+
+_TAKE = {kind: _take(those) for kind, those in _OF.items()}
+_NEXT_REVISION = update(_STATE).values(revision=_STATE.c.revision + 1).returning(_STATE.c.revision)
+_PROCESSING = (
+    update(_SHAPES)
+    .where(_SHAPES.c.id == bindparam("shape"))
+    .values(status=Status.PROCESSING, revision=bindparam("number"), updated_at=_MOMENT)
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Oldest:
+    """The job that is next."""
+
+    kind: Kind
+    fingerprint: str | None  # of a renewal
+    attempts: int  # claims so far
+
+
+def find_oldest(session: Session, moment: datetime, fingerprint: str | None = None) -> Oldest | None:
+    """Return what is known of the next free job; None where no job is free.
+
+    Parameters
+    ----------
+    fingerprint : str, optional
+        Of the parameters for which shapes may be described anew.
+    """
+    kinds = [Kind.UPLOAD] if fingerprint is None else [Kind.UPLOAD, Kind.RENEWAL]
+    for kind in kinds:
+        values = {"moment": moment, **_mine(kind, fingerprint)}
+        row = session.connection().execute(_ATTEMPTS[kind], values).one_or_none()
+        if row is not None:
+            return Oldest(kind=kind, fingerprint=row.fingerprint, attempts=row.attempts)
+    return None
+
+
+def take_oldest(
+    session: Session, wanted: Oldest, moment: datetime, worker: str, lease_until: datetime
+) -> Job | None:
+    """Take the oldest free job of a kind that may be tried; an upload's shape is `processing` then.
+
+    None where others were quicker; then nothing was changed.
+    """
+    connection = session.connection()
+    # locks the state, as every change does first; a renewal changes nothing that anybody sees
+    revision = connection.execute(_NEXT_REVISION).scalar_one()
+    values = {"moment": moment, "by": worker, "proof": uuid4().hex, "until": lease_until}
+    row = connection.execute(
+        _TAKE[wanted.kind], values | _mine(wanted.kind, wanted.fingerprint)
+    ).one_or_none()
+    if row is None:
+        session.rollback()  # nothing changed, and the revision says so
+        return None
+    if wanted.kind is Kind.UPLOAD:
+        connection.execute(_PROCESSING, {"shape": row.shape_id, "number": revision, "moment": moment})
+    return job_of(row)
+
+
+def _mine(kind: Kind, fingerprint: str | None) -> dict[str, str | None]:
+    return {"mine": fingerprint} if kind is Kind.RENEWAL else {}
+
+
+def job_of(row: JobRow | Row[Any]) -> Job:
+    """Return the value of a row that somebody holds; LeaseLost otherwise."""
+    if row.lease_until is None or row.worker is None or row.token is None:
+        raise LeaseLost(f"job {row.id} is held by nobody")
+    return Job(
+        id=row.id,
+        shape_id=row.shape_id,
+        queued_at=row.queued_at,
+        attempts=row.attempts,
+        lease_until=row.lease_until,
+        worker=row.worker,
+        token=row.token,
+        fingerprint=row.fingerprint,
+    )
