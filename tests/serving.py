@@ -109,6 +109,7 @@ def serving(
     thread.start()
     try:
         wait_until(lambda: server.started or not thread.is_alive())
+        wait_until(lambda: not any(each.name == "first load" for each in threading.enumerate()))
         port = server.servers[0].sockets[0].getsockname()[1]
         with httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=PATIENCE) as client:
             yield Serving(app.state.services, client, server)
