@@ -72,6 +72,7 @@ def run(
                 _revive(api, worker, port)
                 _look(port, ledger, generator)
                 report(kills_of(harm))
+            wait_until(lambda: ledger.answers["similar 200"] > 0, "a ranked answer")
         wait_until(lambda: _all_ended(port), "the end of every job")
         api.stop()
         worker.stop()

@@ -1,21 +1,10 @@
 """A job packed for another machine, which does not see the files of this one."""
 
 import pickle
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from pathlib import Path
+from collections.abc import Callable
 from typing import Any
 
-
-@dataclass(frozen=True, kw_only=True)
-class Carried:
-    """A file's content, for those who would read it from a path."""
-
-    content: bytes
-
-    def read_bytes(self) -> bytes:
-        """Return the content, as a path does."""
-        return self.content
+from service.jobs.describing import FilesOnDisk, KeptFiles
 
 
 def packed(function: Callable[..., Any], args: tuple[Any, ...]) -> bytes:
@@ -23,7 +12,7 @@ def packed(function: Callable[..., Any], args: tuple[Any, ...]) -> bytes:
 
     Raises
     ------
-    OSError
+    OSError, FileMissing
         A file cannot be read: it is gone, perhaps with its shape.
     """
     return pickle.dumps((function, tuple(map(_carried, args))), protocol=pickle.HIGHEST_PROTOCOL)
@@ -36,6 +25,5 @@ def run_packed(payload: bytes) -> Any:
 
 
 def _carried(argument: Any) -> Any:
-    if isinstance(argument, Mapping) and all(isinstance(each, Path) for each in argument.values()):
-        return {name: Carried(content=path.read_bytes()) for name, path in argument.items()}
-    return argument
+    here = isinstance(argument, FilesOnDisk) or (isinstance(argument, KeptFiles) and argument.here)
+    return dict(argument) if here else argument

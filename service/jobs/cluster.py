@@ -9,6 +9,7 @@ from uuid import uuid4
 
 from distributed.scheduler import KilledWorker
 
+from index.errors import FileMissing
 from service.jobs.carrying import packed
 from service.jobs.child import ChildError, ChildLimits
 from service.jobs.cluster_link import ClusterLink
@@ -60,7 +61,7 @@ class Cluster(Executor):
             raise RuntimeError("a cluster that was let go takes no jobs")
         try:
             payload = packed(fn, args)
-        except OSError as error:
+        except (OSError, FileMissing) as error:
             future: Future[Value] = Future()
             future.set_exception(ChildError(f"{type(error).__name__}: {error}"))
             return future

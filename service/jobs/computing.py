@@ -6,6 +6,7 @@ from typing import Any
 
 from distributed import get_worker
 
+from index.errors import StorageUnreachable
 from service.jobs.carrying import run_packed
 from service.jobs.child import ChildError, ChildLimits
 from service.jobs.pool import ChildDied, PoolStopped, ProcessPerJob
@@ -13,7 +14,7 @@ from worker.errors import MeshError
 from worker.parameters import Parameters
 
 LOOK_EVERY = 0.2  # seconds between looks whether the job is still wanted
-OUTCOMES = (MeshError, ChildError, ChildDied, PoolStopped)  # what a pool's future raises
+OUTCOMES = (MeshError, ChildError, ChildDied, PoolStopped, StorageUnreachable)  # what a pool's future raises
 RUNNING = ("running", "paused", "closing_gracefully")  # a Dask worker that can still answer
 
 

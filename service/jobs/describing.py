@@ -60,6 +60,11 @@ class KeptFiles(Mapping[str, bytes]):
     def __init__(self, files: FileStore, keys: Mapping[str, str]) -> None:
         self._files, self._keys = files, keys
 
+    @property
+    def here(self) -> bool:
+        """Whether they lie on this machine's disks, where others do not see them."""
+        return self._files.folder is not None
+
     def __getitem__(self, name: str) -> bytes:
         return self._files.get(self._keys[name])
 
