@@ -13,11 +13,12 @@ from index.errors import CatalogueBusy, StorageFull, StorageUnreachable
 from index.jobs import Job
 from index.shapes import Shape, Status
 from service.intake.submissions import receive_paths
+from service.jobs.attempts import Attempt
 from service.jobs.child import ChildError
 from service.jobs.ended import EndedJob, JobWatch
 from service.jobs.executors import child_limits
 from service.jobs.pool import ProcessPerJob
-from service.jobs.workers import Attempt, Worker
+from service.jobs.workers import Worker
 from service.library import Library
 from service.retrieval import accept_upload, remove_shape
 from tests.fakes import coloured_triangle, describe_quickly

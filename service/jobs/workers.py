@@ -7,8 +7,6 @@ import threading
 import time
 from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, CancelledError, Executor, Future, wait
-from dataclasses import dataclass, field
-from datetime import datetime
 
 from index.errors import (
     CatalogueBusy,
@@ -20,9 +18,10 @@ from index.errors import (
 )
 from index.jobs import Job
 from index.vocabulary import Vocabulary
+from service.jobs.attempts import Attempt
 from service.jobs.child import ChildError
 from service.jobs.describing import Describe, InWords, KeptFiles, describe_files, describe_in_words
-from service.jobs.ended import RECORDING, EndedJob, JobWatch, now
+from service.jobs.ended import RECORDING, EndedJob, JobWatch
 from service.jobs.pool import ChildDied, PoolStopped
 from service.jobs.recording import (
     GAVE_UP,
@@ -33,7 +32,7 @@ from service.jobs.recording import (
 )
 from service.jobs.renewing import Renewing
 from service.jobs.sweeping import sweep
-from service.jobs.timing import Stage, Timed, timed, timing
+from service.jobs.timing import Timed, timed, timing
 from service.library import Library
 from service.vocabularies import NoVocabulary, own_vocabulary
 from service.watching.context import known_as
@@ -53,17 +52,6 @@ TRIES = 2  # of a job whose process dies, in one claim
 def process_name() -> str:
     """Return a name for this process's worker, for the log and the queue."""
     return f"{socket.gethostname()}:{os.getpid()}"
-
-
-@dataclass(frozen=True, kw_only=True)
-class Attempt:
-    """A job that is being computed."""
-
-    job: Job
-    tries: int  # submissions so far, this one included
-    started: float  # by the monotonic clock
-    claimed_at: datetime = field(default_factory=now)  # UTC
-    stages: list[Stage] = field(default_factory=list)  # how it spent its time, once that is known
 
 
 class Worker:
