@@ -1,12 +1,14 @@
 """Searching by comparing with every shape: what the searcher is held against."""
 
+from pathlib import Path
+
 import numpy as np
 import numpy.typing as npt
 
 from index.methods import METHODS, Method
 from index.packing import PACKINGS
 from index.searcher import Searcher
-from tests.catalogues import Opened, add_ready
+from tests.catalogues import Opened, add_ready, open_catalogue
 
 LENGTHS = {"log-hks": 6, "hks-0": 4, "hks-0.05": 4, "hks-0.1": 4, "colour-histogram": 30, "colour-curves": 9}
 PLAIN = {"colour-histogram", "colour-curves"}
@@ -70,3 +72,10 @@ def agrees(searcher: Searcher, opened: Opened, limit: int = 7) -> bool:
         searcher.search(name, query, limit) == brute_force(opened, METHODS[name], query, limit)
         for name in METHOD_NAMES
     )
+
+
+def add_in_process(folder: Path, numbers: list[int]) -> None:
+    opened = open_catalogue(folder)
+    for number in numbers:
+        add(opened, number)
+    opened.engine.dispose()

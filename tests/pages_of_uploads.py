@@ -1,5 +1,8 @@
 """What the tests of adding meshes share: textured meshes to send, and where their rows are."""
 
+import io
+import zipfile
+
 from playwright.sync_api import Locator, Page
 
 from tests.mesh_files import png
@@ -42,3 +45,12 @@ def choose(page: Page, button: Locator, *files: str) -> None:
     with page.expect_file_chooser() as chooser:
         button.click()
     chooser.value.set_files(list(files))
+
+
+def zipped(files: dict[str, bytes]) -> bytes:
+    """Return a zip of files."""
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w") as archive:
+        for name, content in files.items():
+            archive.writestr(name, content)
+    return stream.getvalue()

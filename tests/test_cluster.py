@@ -17,7 +17,7 @@ from tests.commanding import json_lines, make_meshes, make_quick, run
 from tests.fakes import coloured_triangle
 from tests.gates import Gate
 from tests.serving import open_fake_library, settings_for, wait_until
-from tests.test_workers import Working, accept, settled
+from tests.working import Working, accept, settled
 from worker.errors import Code, MeshError
 
 LIMITS = ChildLimits(memory_bytes=2**30, cpu_seconds=60, wall_seconds=120)

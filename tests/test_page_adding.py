@@ -1,7 +1,5 @@
 """Meshes are added from the page: dropped or chosen, refused in words, mended, ready with a picture."""
 
-import io
-import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -13,7 +11,7 @@ from service.jobs.describing import describe_files
 from tests.accessible import assert_accessible
 from tests.browsing import PHONE, opened
 from tests.dragging import Drag, write
-from tests.pages_of_uploads import REFUSED, choose, row, rows, textured, vase
+from tests.pages_of_uploads import REFUSED, choose, row, rows, textured, vase, zipped
 from tests.serving import Serving, serving, settings_for, wait_until
 from tests.small_library import good_mesh, open_small_library
 
@@ -136,9 +134,7 @@ def test_a_hundred_and_twenty_files_are_all_sent_and_the_rows_stay_few(
 def test_a_zip_is_added_and_a_missing_file_belongs_into_it(
     service: Serving, browser: Browser, tmp_path: Path
 ) -> None:
-    files = write(
-        tmp_path, {"whole.zip": _zipped(vase(1.6)), "part.zip": _zipped({"part.obj": textured(1.7)})}
-    )
+    files = write(tmp_path, {"whole.zip": zipped(vase(1.6)), "part.zip": zipped({"part.obj": textured(1.7)})})
     with opened(browser, expected=(REFUSED,)) as page:
         page.goto(str(service.client.base_url))
         Drag(page, files / "whole.zip", files / "part.zip").drop_to_add()
@@ -281,14 +277,6 @@ def test_a_drop_without_a_mesh_says_what_is_needed(
         expect(page.get_by_role("complementary")).to_contain_text(
             "There is no mesh in it, only photo.png. Add a .ply"
         )
-
-
-def _zipped(files: dict[str, bytes]) -> bytes:
-    stream = io.BytesIO()
-    with zipfile.ZipFile(stream, "w") as archive:
-        for name, content in files.items():
-            archive.writestr(name, content)
-    return stream.getvalue()
 
 
 def _shapes(service: Serving) -> list[dict[str, Any]]:

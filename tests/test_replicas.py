@@ -11,7 +11,7 @@ from service.library import Library
 from service.retrieval import find_similar, remove_shape
 from tests.fakes import coloured_triangle
 from tests.serving import open_fake_library, settings_for
-from tests.test_workers import SameThread, Working, accept, settled
+from tests.working import SameThread, Working, accept, settled
 
 pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
 

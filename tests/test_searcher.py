@@ -17,7 +17,16 @@ from index.errors import (
 )
 from index.local_files import LocalFiles
 from index.methods import METHODS, with_weights
-from tests.brute_force import METHOD_NAMES, PLAIN, Blocks, add, agrees, brute_force, make_blocks
+from tests.brute_force import (
+    METHOD_NAMES,
+    PLAIN,
+    Blocks,
+    add,
+    add_in_process,
+    agrees,
+    brute_force,
+    make_blocks,
+)
 from tests.catalogues import (
     Opened,
     add_queued,
@@ -27,6 +36,7 @@ from tests.catalogues import (
     open_catalogue,
 )
 from tests.databases import only_in_memory, only_in_memory_on_sqlite
+from tests.saved_indexes import flipped, saved_index
 
 pytestmark = pytest.mark.usefixtures("indexed")  # in memory, on SQLite and on PostgreSQL, and in pgvector
 
@@ -82,13 +92,6 @@ def test_changes_by_another_catalogue_are_seen_by_the_next_search(opened: Opened
         each.engine.dispose()
 
 
-def add_in_process(folder: Path, numbers: list[int]) -> None:
-    opened = open_catalogue(folder)
-    for number in numbers:
-        add(opened, number)
-    opened.engine.dispose()
-
-
 def test_changes_by_another_process_are_seen_by_the_next_search(opened: Opened, tmp_path: Path) -> None:
     add(opened, 0)
     searcher = make_searcher(opened, tmp_path / "index")
@@ -109,15 +112,6 @@ def test_a_searcher_with_nothing_new_costs_one_select(opened: Opened, tmp_path: 
     event.listen(opened.engine, "checkout", lambda taken, *_: taken.set_trace_callback(statements.append))
     searcher.search("fused", make_blocks(2), 3)
     assert [statement.split()[0] for statement in statements] == ["BEGIN", "SELECT", "ROLLBACK"]
-
-
-def saved_index(opened: Opened, folder: Path, n_shapes: int = 40) -> Path:
-    for number in range(n_shapes):
-        add(opened, number)
-    searcher = make_searcher(opened, folder)
-    assert agrees(searcher, opened)
-    searcher.close()
-    return folder / "fused.vectors"
 
 
 @only_in_memory
@@ -141,11 +135,6 @@ def test_a_saved_index_is_used_again_and_completed(
     answer = searcher.search("fused", make_blocks(99), 50)
     assert read == ["s0003", "s0090"]  # all others came from the file
     assert answer == brute_force(opened, METHODS["fused"], make_blocks(99), 50)
-
-
-def flipped(data: bytes) -> bytes:
-    middle = len(data) // 2
-    return data[:middle] + bytes([data[middle] ^ 1]) + data[middle + 1 :]
 
 
 @only_in_memory

@@ -3,7 +3,7 @@
 import threading
 import time
 from collections.abc import Callable, Iterator, Mapping
-from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -11,8 +11,7 @@ import pytest
 
 from index.errors import CatalogueBusy, StorageFull, StorageUnreachable
 from index.jobs import Job
-from index.shapes import Shape, Status
-from service.intake.submissions import receive_paths
+from index.shapes import Status
 from service.jobs.attempts import Attempt
 from service.jobs.child import ChildError
 from service.jobs.ended import EndedJob, JobWatch
@@ -20,9 +19,10 @@ from service.jobs.executors import child_limits
 from service.jobs.pool import ProcessPerJob
 from service.jobs.workers import Worker
 from service.library import Library
-from service.retrieval import accept_upload, remove_shape
+from service.retrieval import remove_shape
 from tests.fakes import coloured_triangle, describe_quickly
 from tests.serving import open_fake_library, settings_for, wait_until
+from tests.working import SameThread, Working, accept, settled
 from worker.errors import Code, MeshError
 
 pytestmark = pytest.mark.usefixtures("kept")  # on SQLite and on PostgreSQL, and with files in a bucket
@@ -42,61 +42,6 @@ def pool(library: Library) -> Iterator[ProcessPerJob]:
     made = ProcessPerJob(slots=2, limits=child_limits(library.settings))
     yield made
     made.shutdown(cancel_futures=True)
-
-
-class SameThread(Executor):
-    """Runs a job at once, without a process."""
-
-    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """Run it."""
-        future: Future[Any] = Future()
-        try:
-            future.set_result(fn(*args, **kwargs))
-        except Exception as error:  # noqa: BLE001 - this is what executors do
-            future.set_exception(error)
-        return future
-
-
-class Working:
-    """A worker in a thread."""
-
-    def __init__(self, library: Library, executor: Executor, **options: Any) -> None:
-        self.outcomes: list[str] = []
-        self.finish_seconds = 0.0
-        self.worker = Worker(
-            library,
-            executor,
-            **{
-                "slots": 2,
-                "describe": describe_quickly,
-                "observe": lambda outcome, _: self.outcomes.append(outcome),
-                **options,
-            },
-        )
-        self.thread = threading.Thread(target=self.worker.run)
-
-    def __enter__(self) -> "Working":
-        """Start it."""
-        self.thread.start()
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        """Stop it; it must end by itself."""
-        self.worker.stop(self.finish_seconds)
-        self.thread.join()
-
-
-def accept(library: Library, name: str, content: bytes | None = None) -> str:
-    path = library.incoming.folder / name
-    path.write_bytes(content or coloured_triangle())
-    shape, _ = accept_upload(library, receive_paths({name: path}))
-    path.unlink()
-    return shape.id
-
-
-def settled(library: Library, shape_id: str) -> Shape:
-    wait_until(lambda: library.catalogue.get(shape_id).status in (Status.READY, Status.FAILED))
-    return library.catalogue.get(shape_id)
 
 
 def test_a_shape_removed_while_it_is_described_is_no_defect(
