@@ -237,10 +237,10 @@ def test_an_error_of_the_queue_does_not_end_the_worker(
     shape_id = accept(library, "a.ply")
     claim, errors = library.queue.claim, [OSError("away"), OSError("still away")]
 
-    def sometimes_away(worker: str, lease_seconds: float, fingerprint: str) -> Any:
+    def sometimes_away(*args: Any) -> Any:
         if errors:
             raise errors.pop()
-        return claim(worker, lease_seconds, fingerprint)
+        return claim(*args)
 
     monkeypatch.setattr(library.queue, "claim", sometimes_away)
     with Working(library, SameThread()):
