@@ -21,7 +21,7 @@ class Watch:
         rows : int
             Compared in double precision; a row that was compared twice counts twice.
         of : int
-            Rows that the index holds.
+            Rows that the index holds; 0 where that is not known.
         escalated : bool
             Whether the first limits left so many rows that another limit was looked for.
         """

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from index.errors import NewerDescriptions, StorageUnreachable
 from service.key_ring import KeyRing
 from service.watching.checks import checks_of
 from service.watching.first_load import FirstLoad
@@ -48,4 +49,27 @@ def test_the_first_load_ends_whether_or_not_it_succeeds(
     with again.running():
         pass
     assert again.done
+    library.close()
+
+
+def test_a_bucket_that_is_away_and_newer_descriptions_are_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    settings = settings_for(tmp_path / "library")
+    library = open_fake_library(settings)
+
+    def away() -> None:
+        raise StorageUnreachable("the storage does not answer")
+
+    def behind(*_: object) -> None:
+        raise NewerDescriptions("a newer version described the shapes")
+
+    monkeypatch.setattr(library.files, "check", away)
+    monkeypatch.setattr("service.watching.checks.check_not_behind", behind)
+    with pytest.raises(Unready) as raised:
+        Readiness(checks_of(library, KeyRing(settings, list), FirstLoad(library))).look()
+    parts = raised.value.members["parts"]
+    assert "does not answer" in parts["files"]
+    assert "newer version" in parts["descriptions"]
+    assert parts["catalogue"] == "ok"
     library.close()

@@ -14,7 +14,8 @@ from tests.fakes import coloured_triangle
 from tests.problems import problem
 from tests.serving import serving, settings_for, wait_until
 
-WELL = {"catalogue": "ok", "files": "ok", "keys": "ok", "index": "ok", "worker": "is none here"}
+PARTS = ("catalogue", "files", "descriptions", "keys", "index")
+WELL = dict.fromkeys(PARTS, "ok") | {"worker": "is none here"}
 
 
 def test_ready_names_each_part_and_the_one_that_is_not(

@@ -110,5 +110,5 @@ def test_stages_and_shares_become_numbers() -> None:
     lines = metrics.text().decode().splitlines()
     assert 'faience_query_seconds_count{method="fused",stage="rank"} 1.0' in lines
     assert 'faience_query_compared_share_sum{method="fused"} 0.03' in lines
-    assert 'faience_query_compared_share_count{method="fused"} 2.0' in lines
+    assert 'faience_query_compared_share_count{method="fused"} 1.0' in lines
     assert 'faience_query_escalations_total{method="fused"} 1.0' in lines

@@ -23,6 +23,7 @@ from index.pgvector.form import Form
 from index.pgvector.held import Held, read_held
 from index.pgvector.ranking import FROM_GRAPH, MORE, TIMES, Found, Ranking
 from index.ranking import Ranked
+from index.watch import tell_compared
 
 ATTEMPTS = 5  # at a table that is replaced in the moment in which it is read
 
@@ -91,6 +92,7 @@ class PgvectorIndex:
                 continue
             with self._counting:
                 self.escalations += found.escalated
+            tell_compared(self._method.name, found.compared, 0, found.escalated)
             return found.ranked
         raise CatalogueBusy("the index kept being built anew during the query; try again")
 

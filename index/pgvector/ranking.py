@@ -40,6 +40,7 @@ class Found:
     ranked: Ranked
     exact: bool = True  # whether no row can be missing
     escalated: bool = False  # whether the first candidates did not prove it
+    compared: int = 0  # rows, exactly
 
 
 class Ranking:
@@ -83,11 +84,13 @@ class Ranking:
         candidates = self._first(self._scan, TIMES * limit + MORE)
         ids, found = self._compared(candidates)
         if len(candidates) < TIMES * limit + MORE:  # that was all
-            return Found(ranked=_nearest(ids, found, limit))
+            return Found(ranked=_nearest(ids, found, limit), compared=len(ids))
         worst = float(np.partition(found, limit - 1)[limit - 1])
         if self._scan.least(candidates[-1][2]) > worst:
-            return Found(ranked=_nearest(ids, found, limit))
-        return Found(ranked=_nearest(*self._compared(self._within(worst)), limit), escalated=True)
+            return Found(ranked=_nearest(ids, found, limit), compared=len(ids))
+        ids, found = self._compared(self._within(worst))
+        compared = len(candidates) + len(ids)
+        return Found(ranked=_nearest(ids, found, limit), escalated=True, compared=compared)
 
     def from_graph(self, limit: int) -> Found:
         """Return near rows, by an index that may miss some."""
@@ -97,7 +100,7 @@ class Ranking:
         self._cursor.execute("SET LOCAL hnsw.iterative_scan = 'strict_order'")  # until there are enough
         self._cursor.execute("SET LOCAL enable_seqscan = off")  # a plan by estimates might read all rows
         ids, found = self._compared(self._first(self._along_graph(), n_candidates))
-        return Found(ranked=_nearest(ids, found, limit), exact=False)
+        return Found(ranked=_nearest(ids, found, limit), exact=False, compared=len(ids))
 
     def _along_graph(self) -> Scan:
         number = sql.SQL("vector <+> %(whole)s::{}").format(sql.SQL(self._form.column))

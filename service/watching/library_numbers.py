@@ -7,6 +7,7 @@ from datetime import UTC, datetime
 from prometheus_client.core import GaugeMetricFamily
 from prometheus_client.registry import Collector
 
+from index.deliveries import Deliveries
 from index.shapes import Status
 from service.library import Library
 
@@ -44,6 +45,8 @@ class LibraryNumbers(Collector):
         yield GaugeMetricFamily("faience_queue_age_seconds", "Wait of the oldest job", value=age)
         held = sum(progress.held.values())
         yield GaugeMetricFamily("faience_jobs_held", "Jobs that a worker has claimed", value=held)
+        untold = Deliveries(self._library.engine).waiting()
+        yield GaugeMetricFamily("faience_deliveries_waiting", "Messages to webhooks", value=untold)
         workers = len(progress.held)
         yield GaugeMetricFamily("faience_workers_busy", "Workers that hold a job", value=workers)
 

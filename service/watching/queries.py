@@ -27,6 +27,7 @@ class QueriesSeen(Watch):
 
     def compared(self, method: str, rows: int, of: int, escalated: bool) -> None:
         """Count how much of the index a search had to read."""
-        self._metrics.compared.labels(method).observe(min(rows / of, 1.0) if of else 0.0)
+        if of:
+            self._metrics.compared.labels(method).observe(min(rows / of, 1.0))
         if escalated:
             self._metrics.escalations.labels(method).inc()
