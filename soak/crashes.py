@@ -5,7 +5,7 @@ import random
 import signal
 import time
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -27,7 +27,8 @@ ENVIRONMENT = {
     "OPENBLAS_NUM_THREADS": "1",
 }
 TARGETS = ("api", "worker", "child")
-ODDS = (3, 3, 4)
+MACHINE = "machine"  # one that computes for a cluster
+ODDS = {"api": 3, "worker": 3, "child": 4, MACHINE: 3}
 DAMAGED, PAUSED = 0.5, 0.1  # how often an index file is damaged after a kill of the API, a worker stopped
 
 
@@ -45,9 +46,13 @@ class CrashFigures:
 
 
 def run(
-    folder: Path, n_kills: int, seed: int, report: Callable[[int], None] = lambda _: None
+    folder: Path,
+    n_kills: int,
+    seed: int,
+    report: Callable[[int], None] = lambda _: None,
+    machines: Sequence[Command] = (),
 ) -> CrashFigures:
-    """Kill the API, a worker or one of their children again and again.
+    """Kill the API, a worker, a machine of their cluster, or one of their children, again and again.
 
     Parameters
     ----------
@@ -55,21 +60,25 @@ def run(
         An empty place for the library and the logs.
     report : callable
         Told how many kills are done.
+    machines : sequence of Command
+        What computes for the cluster that the environment names.
     """
     began = time.monotonic()
     port, ledger = free_port(), Ledger()
     library = folder / "library"
     api, worker = serve(library, port, 1, ENVIRONMENT), work(library, ENVIRONMENT)
     harm: Counter[str] = Counter()
+    targets = (*TARGETS, MACHINE) if machines else TARGETS
     with ending(api, worker):
-        _revive(api, worker, port)
+        _revive(api, worker, machines, port)
         with clients(port, ledger, seed, PACE):
             generator = random.Random(seed)
             while kills_of(harm) < n_kills:
                 time.sleep(generator.uniform(*LIVES))
-                target = TARGETS[kills_of(harm)] if kills_of(harm) < len(TARGETS) else _draw(generator)
-                harm.update(_harm(target, generator, api, worker, library))
-                _revive(api, worker, port)
+                done = kills_of(harm)
+                target = targets[done] if done < len(targets) else _draw(targets, generator)
+                harm.update(_harm(target, generator, api, worker, machines, library))
+                _revive(api, worker, machines, port)
                 _look(port, ledger, generator)
                 report(kills_of(harm))
             wait_until(lambda: ledger.answers["similar 200"] > 0, "a ranked answer")
@@ -89,16 +98,23 @@ def run(
 
 def kills_of(harm: Counter[str]) -> int:
     """Return how many kills there were."""
-    return sum(harm[target] for target in TARGETS)
+    return sum(harm[target] for target in (*TARGETS, MACHINE))
 
 
-def _draw(generator: random.Random) -> str:
-    return generator.choices(TARGETS, ODDS)[0]
+def _draw(targets: Sequence[str], generator: random.Random) -> str:
+    return generator.choices(targets, [ODDS[target] for target in targets])[0]
 
 
-def _harm(target: str, generator: random.Random, api: Command, worker: Command, library: Path) -> list[str]:
+def _harm(
+    target: str,
+    generator: random.Random,
+    api: Command,
+    worker: Command,
+    machines: Sequence[Command],
+    library: Path,
+) -> list[str]:
     """Kill something, and perhaps do more; return what was done."""
-    done = _kill_one(target, generator, api, worker)
+    done = _kill_one(target, generator, api, worker, machines)
     if not api.running() and generator.random() < DAMAGED:
         done += _damage(library / "index", generator)
     if worker.running() and generator.random() < PAUSED:
@@ -106,20 +122,25 @@ def _harm(target: str, generator: random.Random, api: Command, worker: Command, 
     return done
 
 
-def _revive(api: Command, worker: Command, port: int) -> None:
-    if not worker.running():
-        worker.start()
+def _revive(api: Command, worker: Command, machines: Sequence[Command], port: int) -> None:
+    for each in (worker, *machines):
+        if not each.running():
+            each.start()
     start(api, port)
 
 
-def _kill_one(target: str, generator: random.Random, api: Command, worker: Command) -> list[str]:
+def _kill_one(
+    target: str, generator: random.Random, api: Command, worker: Command, machines: Sequence[Command]
+) -> list[str]:
     """Kill a target; return it, or nothing where it had just ended by itself."""
     if target == "api":
         api.kill()
     elif target == "worker":
         worker.kill()
+    elif target == MACHINE:
+        generator.choice(machines).kill()
     else:
-        family = [*api.family(), *worker.family()]
+        family = [child for each in (api, worker, *machines) for child in each.family()]
         if not family or not kill(generator.choice(family)):
             return []
     return [target]
