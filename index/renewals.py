@@ -191,7 +191,10 @@ class Renewals:
         with reading(self._engine) as session:
             known = session.scalars(select(VocabularyRow.id).where(ours).limit(1)).first()
             now_used = session.scalars(select(VocabularyRow.id).join(StateRow, used).where(ours).limit(1))
-            return known is not None and now_used.first() is None
+            none_yet = (
+                session.scalars(select(StateRow.vocabulary_id)).one() is None
+            )  # the first is being added
+            return known is not None and not none_yet and now_used.first() is None
 
 
 def _next_fingerprint(session: Session, state: StateRow) -> str | None:

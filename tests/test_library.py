@@ -5,12 +5,26 @@ from types import SimpleNamespace
 
 import pytest
 
+from index.catalogue import Catalogue
+from index.database import make_engine
 from index.errors import NoPgvector, StorageFull, UnknownStorage
+from index.migrating import migrate
 from index.vocabulary import default_vocabulary
 from service.library import Library
 from tests.databases import DATABASES
 from tests.serving import fake_vocabulary, settings_for
 from tests.storages import PLACES
+
+
+def test_a_library_whose_first_vocabulary_another_process_is_adding_opens(tmp_path: Path) -> None:
+    settings = settings_for(tmp_path)
+    engine = make_engine(settings.url)
+    migrate(engine)
+    Catalogue(engine).add_vocabulary(fake_vocabulary())  # and is killed, or not so far yet
+    engine.dispose()
+    library = Library.open(settings, vocabulary=fake_vocabulary())
+    assert library.catalogue.state().vocabulary_id == fake_vocabulary().id
+    library.close()
 
 
 def test_a_new_library_starts_with_the_vocabulary_that_ships(tmp_path: Path) -> None:

@@ -83,6 +83,7 @@ const REFUSALS = {
   too_many_uploads: ["As many as this key may send in a minute", "It goes on by itself."],
   unreachable: ["The service does not answer", "It goes on by itself as soon as the service is back."],
   stopping: ["The service is being restarted", "It goes on by itself."],
+  storage_unreachable: ["The service cannot reach its files", "It goes on by itself."],
   keys_unreadable: ["The service cannot read its keys", "It goes on by itself."],
 };
 const BUSY = ["The service is busy", "It goes on by itself."];
