@@ -194,7 +194,7 @@ class Renewals:
             none_yet = (
                 session.scalars(select(StateRow.vocabulary_id)).one() is None
             )  # the first is being added
-            return known is not None and not none_yet and now_used.first() is None
+            return known is not None and active is not None and now_used.first() is None
 
 
 def _next_fingerprint(session: Session, state: StateRow) -> str | None:
