@@ -191,9 +191,7 @@ class Renewals:
         with reading(self._engine) as session:
             known = session.scalars(select(VocabularyRow.id).where(ours).limit(1)).first()
             now_used = session.scalars(select(VocabularyRow.id).join(StateRow, used).where(ours).limit(1))
-            none_yet = (
-                session.scalars(select(StateRow.vocabulary_id)).one() is None
-            )  # the first is being added
+            active = session.scalars(select(StateRow.vocabulary_id)).one()  # None while the first is added
             return known is not None and active is not None and now_used.first() is None
 
 
