@@ -59,7 +59,13 @@ class ObjectFiles:
         """Keep `data` under `key`, durably, replacing what was there."""
         self._put(key, data)
 
-    def put_stream(self, key: str, stream: Stream, *, flushed: bool = True) -> tuple[int, str]:  # noqa: ARG002
+    def put_stream(
+        self,
+        key: str,
+        stream: Stream,
+        *,
+        flushed: bool = True,  # noqa: ARG002 - always durable
+    ) -> tuple[int, str]:
         """Keep what `stream` holds; return its size and SHA-256.
 
         What is longer than a piece is sent in several; they become a file at once, after the last.
