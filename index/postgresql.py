@@ -1,13 +1,17 @@
 """PostgreSQL: how its connections are prepared, and what its failures mean."""
 
+import time
 from collections.abc import Mapping
 from functools import partial
+from select import POLLIN, poll
 from typing import Any
 
 from psycopg import Connection as Driver
+from psycopg import Error as DriverError
 from psycopg.types.string import StrBinaryDumper, StrDumper
 from sqlalchemy import Connection, Engine, Table, create_engine, event, func, make_url, select, text
-from sqlalchemy.exc import OperationalError
+from sqlalchemy.exc import InvalidatePoolError, OperationalError
+from sqlalchemy.pool import ConnectionPoolEntry
 
 from index.errors import CatalogueBusy, StorageFull
 
@@ -15,6 +19,7 @@ ONE_MOMENT: Mapping[str, Any] = {"isolation_level": "REPEATABLE READ", "postgres
 ONE_MOMENT_SQL = "SET TRANSACTION ISOLATION LEVEL REPEATABLE READ READ ONLY"
 
 _KEPT, _MORE = 5, 15  # connections of a process; a server has a hundred by default, for all of them
+_TRUSTED = 5.0  # seconds after its last use in which a silent connection is taken to be a living one
 _MIGRATING = 0x666169656E6365  # the name of a lock that one migration at a time holds: "faience"
 _FULL, _BUSY = frozenset({"53100"}), frozenset({"55P03", "40P01", "40001", "57P03", "53300"})
 
@@ -38,8 +43,10 @@ class _SendableBinary(StrBinaryDumper):
 def postgresql_engine(url: str, busy_seconds: float) -> Engine:
     """Return an engine that notices a restarted server; writers wait only so long for each other."""
     address = make_url(url).set(drivername="postgresql+psycopg")
-    engine = create_engine(address, pool_size=_KEPT, max_overflow=_MORE, pool_pre_ping=True)
+    engine = create_engine(address, pool_size=_KEPT, max_overflow=_MORE)
     event.listen(engine, "connect", partial(_prepare, busy_seconds))
+    event.listen(engine, "checkin", _note_use)
+    event.listen(engine, "checkout", _ask_whether_alive)
     return engine
 
 
@@ -82,3 +89,30 @@ def _prepare(busy_seconds: float, connection: Driver[Any], _record: Any) -> None
     connection.execute(f"SET lock_timeout = {int(busy_seconds * 1000)}")
     connection.execute("SET timezone = 'UTC'")
     connection.commit()
+
+
+def _note_use(_connection: Driver[Any], record: ConnectionPoolEntry) -> None:
+    record.info["used"] = time.monotonic()
+
+
+def _ask_whether_alive(connection: Driver[Any], record: ConnectionPoolEntry, _borrower: object) -> None:
+    """Ask only where the server may have gone: the question would cost each transaction a way there and back.
+
+    A server that stops or restarts says so on every connection, one that is cut off is silent.
+    """
+    used = record.info.get("used")
+    if used is None or (time.monotonic() - used < _TRUSTED and not _spoke(connection)):
+        return
+    try:
+        connection.execute("")
+        connection.rollback()
+    except DriverError as error:
+        raise InvalidatePoolError from error  # the pool connects anew
+
+
+def _spoke(connection: Driver[Any]) -> bool:
+    if connection.closed:
+        return True
+    waiting = poll()
+    waiting.register(connection.fileno(), POLLIN)
+    return bool(waiting.poll(0))
