@@ -16,7 +16,7 @@ run: setup
 	$(VENV)/bin/faience serve --samples
 
 test: setup
-	$(PYTHON) -m pytest -n 2
+	$(PYTHON) -m pytest -n 2 --dist loadfile --no-loadscope-reorder
 
 check: setup
 	$(VENV)/bin/ruff check .

@@ -17,7 +17,7 @@ from soak.processes import Command, ending, free_port, kill, serve, start, wait_
 from soak.promises import broken_promises
 
 LEASE = 3.0  # seconds until a dead worker's job is another's
-PACE = 0.8  # seconds between uploads
+PACE = 0.8  # seconds between uploads, unless told
 LIVES = (0.2, 3.0)  # seconds between two kills, from and to
 LOOKED_AT = 10  # acknowledged shapes asked for after each restart
 ENVIRONMENT = {
@@ -51,6 +51,7 @@ def run(
     seed: int,
     report: Callable[[int], None] = lambda _: None,
     machines: Sequence[Command] = (),
+    pace: float = PACE,
 ) -> CrashFigures:
     """Kill the API, a worker, a machine of their cluster, or one of their children, again and again.
 
@@ -62,6 +63,8 @@ def run(
         Told how many kills are done.
     machines : sequence of Command
         What computes for the cluster that the environment names.
+    pace : float
+        Seconds between uploads.
     """
     began = time.monotonic()
     port, ledger = free_port(), Ledger()
@@ -71,7 +74,7 @@ def run(
     targets = (*TARGETS, MACHINE) if machines else TARGETS
     with ending(api, worker):
         _revive(api, worker, machines, port)
-        with clients(port, ledger, seed, PACE):
+        with clients(port, ledger, seed, pace):
             generator = random.Random(seed)
             while kills_of(harm) < n_kills:
                 time.sleep(generator.uniform(*LIVES))

@@ -18,6 +18,7 @@ SIZE = 64 * 2**20  # bytes of the disk
 ENVIRONMENT = {
     "FAIENCE_RESERVE_BYTES": str(4 * 2**20),
     "FAIENCE_POLL_SECONDS": "0.1",
+    "FAIENCE_LEASE_SECONDS": "3",  # the killed service's jobs are soon others'
     "OMP_NUM_THREADS": "1",
     "OPENBLAS_NUM_THREADS": "1",
 }
