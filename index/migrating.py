@@ -7,6 +7,7 @@ from importlib.resources import as_file, files
 from alembic import command
 from alembic.config import Config
 from alembic.migration import MigrationContext
+from alembic.script import ScriptDirectory
 from sqlalchemy import Engine
 
 from index.database import named_failures
@@ -27,6 +28,8 @@ def migrate(engine: Engine, upto: str = "head") -> None:
             if not on_sqlite:
                 migrate_one_at_a_time(connection)
             before = MigrationContext.configure(connection).get_current_revision()
+            if before == ScriptDirectory.from_config(config).get_current_head():
+                return
             config.attributes["connection"] = connection
             command.upgrade(config, upto)
             after = MigrationContext.configure(connection).get_current_revision()

@@ -1,6 +1,7 @@
 """A connection that says nothing, or does not listen, or speaks no HTTP, costs little and not for long."""
 
 import socket
+import struct
 import time
 from collections.abc import Iterator
 
@@ -11,6 +12,7 @@ from soak.wire import connected, exchange, read_reply
 from tests.serving import Serving, serving, settings_for, wait_until
 
 HEAD = b"GET /livez HTTP/1.1\r\nHost: localhost\r\n"
+GONE_AT_ONCE = struct.pack("ii", 1, 0)  # closed with a reset, not a farewell
 CUT = (ConnectionResetError, BrokenPipeError)  # as the moment has it
 
 
@@ -125,3 +127,14 @@ def test_too_many_requests_at_work_are_told_to_come_back(service: Serving) -> No
     for connection in listeners:
         connection.close()
     wait_until(lambda: exchange(service.address, HEAD + b"\r\n").status == 200)
+
+
+def test_a_client_that_is_gone_when_it_is_refused_is_no_defect(
+    service: Serving, caplog: pytest.LogCaptureFixture
+) -> None:
+    for _ in range(50):
+        with connected(service.address) as connection:
+            connection.sendall(HEAD + b"\r\nno HTTP\r\n\r\n")
+            connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, GONE_AT_ONCE)
+    wait_until(lambda: service.client.get("/livez").status_code == 200)  # none of them is kept
+    assert not [record for record in caplog.records if record.exc_info]

@@ -89,7 +89,7 @@ class View:
 
 VIEWS = {
     "library": View(address="/", shows=".card img"),
-    "library, filtered": View(address="/?q=nobody", shows="main"),
+    "library, filtered": View(address="/?q=nobody", shows=".empty"),
     "library, with uploads": View(address="/", shows=".card img", prepare=dock),
     "shape": View(address="/shapes/{ready}/details", shows="h1"),
     "shape, removing": View(address="/shapes/{ready}/details", shows="h1", prepare=question),

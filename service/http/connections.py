@@ -1,6 +1,7 @@
 """What a connection may cost before, between and after its requests: uvicorn sets no clock for those."""
 
 import asyncio
+import contextlib
 import sys
 from http import HTTPStatus
 
@@ -116,9 +117,10 @@ class BoundedConnection(H11Protocol):
             self.cycle.message_event.set()
         self._refused = True
         self._mind_head()
-        if self.transport.can_write_eof():
-            self.transport.write_eof()  # closed at once, the answer would be lost with what is still unread
         self.loop.call_later(self.linger_seconds, self.transport.abort)
+        if self.transport.can_write_eof():
+            with contextlib.suppress(OSError):  # the client has gone already
+                self.transport.write_eof()  # closed at once, the answer would be lost with all that is unread
 
 
 def _events(answer: Response, status: HTTPStatus) -> tuple[h11.Event, ...]:
