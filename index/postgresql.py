@@ -19,6 +19,7 @@ ONE_MOMENT: Mapping[str, Any] = {"isolation_level": "REPEATABLE READ", "postgres
 ONE_MOMENT_SQL = "SET TRANSACTION ISOLATION LEVEL REPEATABLE READ READ ONLY"
 
 _KEPT, _MORE = 5, 15  # connections of a process; a server has a hundred by default, for all of them
+_TEXT = {"client_encoding": "utf8"}  # a server made without a locale would have bytes sent and received
 _TRUSTED = 5.0  # seconds after its last use in which a silent connection is taken to be a living one
 _MIGRATING = 0x666169656E6365  # the name of a lock that one migration at a time holds: "faience"
 _FULL, _BUSY = frozenset({"53100"}), frozenset({"55P03", "40P01", "40001", "57P03", "53300"})
@@ -43,7 +44,7 @@ class _SendableBinary(StrBinaryDumper):
 def postgresql_engine(url: str, busy_seconds: float) -> Engine:
     """Return an engine that notices a restarted server; writers wait only so long for each other."""
     address = make_url(url).set(drivername="postgresql+psycopg")
-    engine = create_engine(address, pool_size=_KEPT, max_overflow=_MORE)
+    engine = create_engine(address, pool_size=_KEPT, max_overflow=_MORE, connect_args=_TEXT)
     event.listen(engine, "connect", partial(_prepare, busy_seconds))
     event.listen(engine, "checkin", _note_use)
     event.listen(engine, "checkout", _ask_whether_alive)

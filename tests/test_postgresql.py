@@ -5,7 +5,7 @@ from pathlib import Path
 
 import psycopg
 import pytest
-from sqlalchemy import func, select
+from sqlalchemy import func, make_url, select
 from sqlalchemy.exc import OperationalError
 
 from index.catalogue import Catalogue
@@ -85,6 +85,21 @@ def test_jobs_after_an_import_get_ids_that_no_job_has(opened: Opened, tmp_path: 
         ids = session.scalars(select(JobRow.id).order_by(JobRow.id)).all()
     assert ids == [1, 2, 3, 4, 5, 6]
     staged.engine.dispose()
+
+
+def test_a_database_without_an_encoding_holds_any_text(database_server: str) -> None:
+    name = "without_encoding"
+    with psycopg.connect(database_server, autocommit=True) as connection:
+        connection.execute(
+            f"CREATE DATABASE {name} TEMPLATE template0 ENCODING 'SQL_ASCII' LC_COLLATE 'C' LC_CTYPE 'C'"
+        )
+    engine = make_engine(make_url(database_server).set(database=name).render_as_string(hide_password=False))
+    migrate(engine)
+    catalogue = Catalogue(engine)
+    catalogue.accept(id="a", name="Krüge und 壺", metadata={"für": "甕"}, sha256="ab", files=[])
+    found = catalogue.get("a")
+    assert (found.name, found.metadata) == ("Krüge und 壺", {"für": "甕"})
+    engine.dispose()
 
 
 def test_a_server_that_restarts_costs_no_request_after_it(tmp_path: Path) -> None:
