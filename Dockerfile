@@ -14,7 +14,8 @@ RUN .venv/bin/pip install --no-build-isolation --constraint requirements.lock . 
     .venv/bin/python -m compileall -q --invalidation-mode unchecked-hash .venv/lib
 
 FROM ${PYTHON}
-RUN useradd --system --create-home --home-dir /data faience
+RUN useradd --system --create-home --home-dir /data faience && \
+    install --directory --owner faience /data/compiled
 COPY --from=build /faience/.venv /faience/.venv
 ENV PATH=/faience/.venv/bin:$PATH \
     FAIENCE_DATA_DIR=/data/library \
