@@ -3,7 +3,6 @@
 The statements are made once and have no objects behind their rows, which would cost more than they do.
 """
 
-from dataclasses import dataclass
 from datetime import datetime
 from enum import Enum
 from typing import Any
@@ -34,16 +33,13 @@ _OF: dict[Kind, ColumnElement[bool]] = {
     Kind.UPLOAD: _JOBS.c.fingerprint.is_(None),
     Kind.RENEWAL: _JOBS.c.fingerprint == bindparam("mine"),
 }
-_ATTEMPTS = {
-    kind: select(_JOBS.c.attempts, _JOBS.c.fingerprint).where(_FREE, those).order_by(_JOBS.c.id).limit(1)
-    for kind, those in _OF.items()
-}
+_WAITS = {kind: select(_JOBS.c.id).where(_FREE, those).limit(1) for kind, those in _OF.items()}
 
 
 def _take(those: ColumnElement[bool]) -> ReturningUpdate[Any]:
     oldest = (
         select(_JOBS.c.id)
-        .where(_FREE, those, _JOBS.c.attempts < MAX_ATTEMPTS)
+        .where(_FREE, those)
         .order_by(_JOBS.c.id)
         .limit(1)
         .with_for_update(skip_locked=True)  # SQLite has one writer and leaves this out
@@ -73,50 +69,39 @@ _PROCESSING = (
 )
 
 
-@dataclass(frozen=True, kw_only=True)
-class Oldest:
-    """The job that is next."""
-
-    kind: Kind
-    fingerprint: str | None  # of a renewal
-    attempts: int  # claims so far
+def kinds(fingerprint: str | None) -> tuple[Kind, ...]:
+    """Return what may be claimed, in its order; described anew are shapes for a fingerprint alone."""
+    return (Kind.UPLOAD,) if fingerprint is None else (Kind.UPLOAD, Kind.RENEWAL)
 
 
-def find_oldest(session: Session, moment: datetime, fingerprint: str | None = None) -> Oldest | None:
-    """Return what is known of the next free job; None where no job is free.
-
-    Parameters
-    ----------
-    fingerprint : str, optional
-        Of the parameters for which shapes may be described anew.
-    """
-    kinds = [Kind.UPLOAD] if fingerprint is None else [Kind.UPLOAD, Kind.RENEWAL]
-    for kind in kinds:
-        values = {"moment": moment, **_mine(kind, fingerprint)}
-        row = session.connection().execute(_ATTEMPTS[kind], values).one_or_none()
-        if row is not None:
-            return Oldest(kind=kind, fingerprint=row.fingerprint, attempts=row.attempts)
-    return None
+def any_waits(session: Session, moment: datetime, fingerprint: str | None) -> bool:
+    """Return whether a job is free, also one that was tried too often."""
+    looks = ((_WAITS[kind], {"moment": moment, **_mine(kind, fingerprint)}) for kind in kinds(fingerprint))
+    return any(session.connection().execute(*look).first() is not None for look in looks)
 
 
 def take_oldest(
-    session: Session, wanted: Oldest, moment: datetime, worker: str, lease_until: datetime
+    session: Session,
+    kind: Kind,
+    moment: datetime,
+    worker: str,
+    lease_until: datetime,
+    fingerprint: str | None,
 ) -> Job | None:
-    """Take the oldest free job of a kind that may be tried; an upload's shape is `processing` then.
+    """Take the oldest free job of a kind; an upload's shape is `processing` then.
 
-    None where others were quicker; then nothing was changed.
+    None where no job is free. A job that was tried too often comes back with more attempts than may be, and
+    is not taken; in both cases nothing was changed.
     """
     connection = session.connection()
     # locks the state, as every change does first; a renewal changes nothing that anybody sees
     revision = connection.execute(_NEXT_REVISION).scalar_one()
     values = {"moment": moment, "by": worker, "proof": uuid4().hex, "until": lease_until}
-    row = connection.execute(
-        _TAKE[wanted.kind], values | _mine(wanted.kind, wanted.fingerprint)
-    ).one_or_none()
-    if row is None:
+    row = connection.execute(_TAKE[kind], values | _mine(kind, fingerprint)).one_or_none()
+    if row is None or row.attempts > MAX_ATTEMPTS:
         session.rollback()  # nothing changed, and the revision says so
-        return None
-    if wanted.kind is Kind.UPLOAD:
+        return None if row is None else job_of(row)
+    if kind is Kind.UPLOAD:
         connection.execute(_PROCESSING, {"shape": row.shape_id, "number": revision, "moment": moment})
     return job_of(row)
 

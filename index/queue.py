@@ -6,7 +6,7 @@ from datetime import datetime, timedelta
 from sqlalchemy import ColumnElement, Engine, and_, func, or_, select, update
 from sqlalchemy.orm import Session
 
-from index.claiming import find_oldest, job_of, take_oldest
+from index.claiming import Kind, any_waits, job_of, kinds, take_oldest
 from index.database import reading, writing
 from index.deliveries import announce
 from index.errors import LeaseLost
@@ -34,6 +34,7 @@ class Queue:
     def __init__(self, engine: Engine, clock: Callable[[], datetime] = now) -> None:
         self._engine = engine
         self._clock = clock
+        self._flows = False  # whether the last claim found a job
 
     def claim(self, worker: str, lease_seconds: float, fingerprint: str | None = None) -> Job | None:
         """Take the oldest job that nobody holds, or whose lease ran out; None where there is none.
@@ -48,19 +49,14 @@ class Queue:
             Of the parameters that this worker describes with; shapes are described anew only for these.
         """
         moment = self._clock()
-        # asking again and again must not lock others out, as SQLite's writers do from their start
-        if self._engine.dialect.name == "sqlite" and not self._waits(moment, fingerprint):
+        # who asks an empty queue again and again must lock nobody out; where a job was, another likely is
+        if not self._flows and not self._waits(moment, fingerprint):
             return None
-        while True:
-            with writing(self._engine) as session:
-                oldest = find_oldest(session, moment, fingerprint)
-                if oldest is None:
-                    return None
-                if oldest.attempts < MAX_ATTEMPTS:
-                    until = moment + timedelta(seconds=lease_seconds)
-                    return take_oldest(session, oldest, moment, worker, until)
-                lock_state(session)
-                _give_up_exhausted(session, moment)
+        until = moment + timedelta(seconds=lease_seconds)
+        found = (self._take(kind, moment, worker, until, fingerprint) for kind in kinds(fingerprint))
+        job = next((job for job in found if job is not None), None)
+        self._flows = job is not None
+        return job
 
     def heartbeat(self, job: Job, lease_seconds: float) -> Job:
         """Lengthen the lease from now on; LeaseLost where the job is no longer this worker's."""
@@ -94,7 +90,19 @@ class Queue:
 
     def _waits(self, moment: datetime, fingerprint: str | None) -> bool:
         with reading(self._engine) as session:
-            return find_oldest(session, moment, fingerprint) is not None
+            return any_waits(session, moment, fingerprint)
+
+    def _take(
+        self, kind: Kind, moment: datetime, worker: str, until: datetime, fingerprint: str | None
+    ) -> Job | None:
+        while True:
+            with writing(self._engine) as session:
+                job = take_oldest(session, kind, moment, worker, until, fingerprint)
+            if job is None or job.attempts <= MAX_ATTEMPTS:
+                return job
+            with writing(self._engine) as session:
+                lock_state(session)
+                _give_up_exhausted(session, moment)
 
 
 def _free(moment: datetime) -> ColumnElement[bool]:

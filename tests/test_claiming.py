@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from index.claiming import Kind, Oldest, find_oldest, take_oldest
+from index.claiming import Kind, any_waits, take_oldest
 from index.database import writing
 from index.queue import MAX_ATTEMPTS
 from index.revisions import now
@@ -14,8 +14,6 @@ from index.shapes import Status
 from tests.catalogues import Opened, add_queued, open_catalogue
 
 pytestmark = pytest.mark.usefixtures("database")  # on SQLite and on PostgreSQL
-
-UPLOAD = Oldest(kind=Kind.UPLOAD, fingerprint=None, attempts=0)
 
 
 @pytest.fixture
@@ -37,22 +35,36 @@ def test_a_claim_is_a_change_that_replicas_see(opened: Opened) -> None:
 def test_a_claim_that_came_too_late_changes_nothing(opened: Opened) -> None:
     before = opened.catalogue.revision()
     moment = now()
+    until = moment + timedelta(seconds=60)
     with writing(opened.engine) as session:
-        assert find_oldest(session, moment) is None
-        assert take_oldest(session, UPLOAD, moment, "late", moment + timedelta(seconds=60)) is None
+        assert not any_waits(session, moment, None)
+        assert take_oldest(session, Kind.UPLOAD, moment, "late", until, None) is None
     assert opened.catalogue.revision() == before
 
 
-def test_a_job_that_was_tried_too_often_is_never_taken(opened: Opened) -> None:
+def test_a_job_that_was_tried_too_often_is_told_and_not_taken(opened: Opened) -> None:
     add_queued(opened, "killer")
     for _ in range(MAX_ATTEMPTS):
         assert opened.queue.claim("w", -1) is not None  # a lease that is over at once
-    add_queued(opened, "good")
+    before = opened.catalogue.revision()
     moment = now()
     with writing(opened.engine) as session:
-        oldest = find_oldest(session, moment)
-        assert oldest is not None
-        assert oldest.attempts == MAX_ATTEMPTS
-        job = take_oldest(session, oldest, moment, "w", moment + timedelta(seconds=60))
+        assert any_waits(session, moment, None)
+        job = take_oldest(session, Kind.UPLOAD, moment, "w", moment + timedelta(seconds=60), None)
+    assert job is not None
+    assert (job.shape_id, job.attempts) == ("killer", MAX_ATTEMPTS + 1)
+    assert opened.catalogue.revision() == before
+    with writing(opened.engine) as session:  # still free
+        assert any_waits(session, moment, None)
+
+
+def test_what_was_tried_too_often_is_given_up_although_others_wait(opened: Opened) -> None:
+    add_queued(opened, "killer")
+    for _ in range(MAX_ATTEMPTS):
+        assert opened.queue.claim("w", -1) is not None
+    add_queued(opened, "good")
+    add_queued(opened, "better")
+    job = opened.queue.claim("w", 60)
     assert job is not None
     assert job.shape_id == "good"
+    assert opened.catalogue.get("killer").error_code == "gave_up"
